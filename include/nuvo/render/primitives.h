@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "nuvo/math/bounds.h"
+#include "nuvo/render/profile.h"
+#include "nuvo/scene/scene.h"
+
+namespace nuvo {
+
+/// Place of a primitive (a sphere, an ellipsoid or one triangle of non-zero area) in document order;
+/// of two hits at equal t the lower id wins.
+using PrimitiveId = std::uint32_t;
+
+/// Where a primitive comes from.
+struct PrimitiveSource {
+    std::uint32_t object = 0;    ///< index into Scene::objects
+    std::uint32_t triangle = 0;  ///< index into the mesh's triangles; 0 for a sphere
+};
+
+/// The scene flattened for tracing: primitives in document order, and the leaf items (single
+/// primitives or whole shapes) that an octree distributes.
+struct Primitives {
+    std::vector<PrimitiveSource> sources;      ///< one per primitive
+    std::vector<PrimitiveId> item_first;       ///< item i holds primitives [item_first[i], item_first[i + 1])
+    std::vector<Bounds3> item_boxes;           ///< one per item
+    std::size_t zero_area_triangles = 0;       ///< left out: they can never be hit
+
+    std::size_t item_count() const { return item_boxes.size(); }
+};
+
+/// Flattens `scene` with single primitives or whole shapes as leaf items.
+Primitives flatten(const Scene& scene, LeafContent leaves);
+
+}  // namespace nuvo

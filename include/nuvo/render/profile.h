@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+namespace nuvo {
+
+enum class OctreeType { kUniform, kNonuniform };
+/// How a non-uniform voxel is cut. Uniform trees always cut at the spatial midpoint.
+enum class MidpointChoice { kSpatial, kSweep, kMlslSbplx };
+enum class LeafContent { kShapes, kPrimitives };
+enum class WalkChoice { kHash, kDescent };
+enum class Precision { kFloat, kDouble, kExact };
+/// kThesis: the costs of thesis 5.4.1; kCalibrated: constant, measured costs.
+enum class CostChoice { kThesis, kCalibrated };
+
+/// One answer to every question that decides what is built, walked and computed. A named profile is
+/// nothing but a value of this type.
+struct Profile {
+    OctreeType type = OctreeType::kUniform;
+    MidpointChoice midpoint = MidpointChoice::kMlslSbplx;  ///< used by non-uniform trees only
+    CostChoice costs = CostChoice::kCalibrated;
+    /// What a mesh of 8 triangles counts as in the thesis' costs (others in proportion).
+    double thesis_weight = 8;
+    std::optional<std::size_t> max_objects;  ///< stop rule of COMP1011 instead of the costs
+    LeafContent leaves = LeafContent::kPrimitives;
+    WalkChoice walk = WalkChoice::kHash;
+    /// Step past a voxel's face in units of the smallest voxel width; none: exact faces.
+    std::optional<double> step;
+    Precision precision = Precision::kExact;
+    /// Shadow rays start this far along the normal, in scene units; none: exact shadows.
+    std::optional<double> bias;
+};
+
+/// The published program, its slips of arithmetic mended.
+Profile thesis_profile();
+/// The thesis' structure with right numbers: the default and the reference of every other tracer.
+Profile exact_profile();
+
+}  // namespace nuvo

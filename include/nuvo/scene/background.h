@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include "nuvo/math/vec.h"
+
+namespace nuvo {
+
+/// X3D Background (ISO/IEC 19775-1 clause 24). Angles are radians: the sky's from the zenith, the
+/// ground's from the nadir; each list of angles has one entry fewer than its colours.
+struct Background {
+    std::vector<Color> sky_color{{0, 0, 0}};
+    std::vector<double> sky_angle;
+    std::vector<Color> ground_color;
+    std::vector<double> ground_angle;
+
+    friend bool operator==(const Background&, const Background&) = default;
+
+    /// The colour seen along the unit vector `direction`. One sky and one ground colour without
+    /// angles blend over the whole sphere [eq. 36]; all else is the standard's gradient.
+    Color color(const Vector3& direction) const;
+};
+
+}  // namespace nuvo

@@ -1,0 +1,45 @@
+#pragma once
+
+#include "nuvo/math/ray.h"
+
+namespace nuvo {
+
+/// Picture width and height in pixels.
+struct Resolution {
+    int width = 1920;
+    int height = 1080;
+
+    friend bool operator==(const Resolution&, const Resolution&) = default;
+};
+
+/// An X3D Viewpoint in world space. [thesis 4.2.2] The axes are orthonormal; the view looks along
+/// `forward`, which for the default orientation is (0, 0, -1).
+struct Camera {
+    Point3 position{0, 0, 10};
+    Vector3 right{1, 0, 0};
+    Vector3 up{0, 1, 0};
+    Vector3 forward{0, 0, -1};
+    double field_of_view_rad = 0.78539816339744831;  ///< the smaller of the two angles, in (0, pi)
+
+    friend bool operator==(const Camera&, const Camera&) = default;
+};
+
+/// Turns pixels into primary rays: eq. 25-35 with the constants of one picture taken out.
+class RayGenerator {
+  public:
+    RayGenerator(const Camera& camera, Resolution resolution);
+
+    /// The ray through the centre of pixel (x, y), y counted from the top row; unit direction.
+    Ray ray(int x, int y) const { return ray_at(x + 0.5, y + 0.5); }
+    /// The ray through any point of the picture, in pixels from its top left corner.
+    Ray ray_at(double x, double y) const;
+
+  private:
+    Camera camera_;
+    double width_;
+    double height_;
+    double half_width_;   // of the image plane at distance 1
+    double half_height_;
+};
+
+}  // namespace nuvo
