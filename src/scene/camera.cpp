@@ -16,8 +16,7 @@ RayGenerator::RayGenerator(const Camera& camera, Resolution resolution)
 Ray RayGenerator::ray_at(double x, double y) const {
     const double screen_x = (2 * x / width_ - 1) * half_width_;    // [eq. 34]
     const double screen_y = (1 - 2 * y / height_) * half_height_;  // [eq. 35]
-    const Vector3 direction =
-        camera_.right * screen_x + camera_.up * screen_y + camera_.forward;
+    const Vector3 direction = camera_.right * screen_x + camera_.up * screen_y + camera_.forward;
     return {camera_.position, normalized(direction)};
 }
 

@@ -21,13 +21,13 @@ struct Triangle {
 };
 
 /// Triangles over shared corners, in world space. [thesis 5.2.2]
-/// The list keeps the file's order and also its zero-area triangles (which are never hit), so that a
-/// triangle's index is its place in the file. Winding is already turned so that
-/// (b - a) x (c - a) is the geometric normal, whatever `ccw` and the transform's sign said.
+/// The list keeps the file's order and also its zero-area triangles (which are never hit), so that
+/// a triangle's index is its place in the file. Winding is already turned so that (b - a) x (c - a)
+/// is the geometric normal, whatever `ccw` and the transform's sign said.
 struct TriangleMesh {
     std::vector<Point3> positions;
     std::vector<IndexTriple> triangles;
-    std::vector<Vector3> normals;          ///< world space, not necessarily unit; empty: flat
+    std::vector<Vector3> normals;               ///< world space, not necessarily unit; empty: flat
     std::vector<IndexTriple> normal_triangles;  ///< into normals; empty: same as `triangles`
 
     Triangle triangle(std::size_t i) const {

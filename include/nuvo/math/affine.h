@@ -22,8 +22,8 @@ struct Matrix3 {
     constexpr Matrix3 transposed() const { return {{column(0), column(1), column(2)}}; }
     /// The matrix of cofactors, transposed: m * m.adjugate() == determinant * identity.
     constexpr Matrix3 adjugate() const {
-        const Matrix3 cofactors{{cross(row[1], row[2]), cross(row[2], row[0]),
-                                 cross(row[0], row[1])}};
+        const Matrix3 cofactors{
+            {cross(row[1], row[2]), cross(row[2], row[0]), cross(row[0], row[1])}};
         return cofactors.transposed();
     }
     constexpr double determinant() const { return dot(row[0], cross(row[1], row[2])); }

@@ -30,7 +30,8 @@ struct Node {
     }
 };
 
-/// An octree over boxes, uniform or not: a value of flat arrays. Node 0 is the root. [thesis 4.4, 5.4]
+/// An octree over boxes, uniform or not: a value of flat arrays. Node 0 is the root.
+/// [thesis 4.4, 5.4]
 class Octree {
   public:
     Octree() = default;

@@ -18,8 +18,8 @@ struct Voxel {
     constexpr Vector3 positive_width() const { return bounds.max - midpoint; }
     constexpr Vector3 negative_width() const { return midpoint - bounds.min; }
 
-    /// Digit 1..8 of the octant that holds p; octants are half-open: a point on the midpoint's plane
-    /// belongs to the upper side. [COMP1011]
+    /// Digit 1..8 of the octant that holds p; octants are half-open: a point on the midpoint's
+    /// plane belongs to the upper side. [COMP1011]
     constexpr int octant_of(const Point3& p) const {
         return octant_digit((p.x >= midpoint.x ? 1 : 0) | (p.y >= midpoint.y ? 2 : 0) |
                             (p.z >= midpoint.z ? 4 : 0));

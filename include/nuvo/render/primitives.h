@@ -9,8 +9,8 @@
 
 namespace nuvo {
 
-/// Place of a primitive (a sphere, an ellipsoid or one triangle of non-zero area) in document order;
-/// of two hits at equal t the lower id wins.
+/// Place of a primitive (a sphere, an ellipsoid or one triangle of non-zero area) in document
+/// order; of two hits at equal t the lower id wins.
 using PrimitiveId = std::uint32_t;
 
 /// Where a primitive comes from.
@@ -22,10 +22,11 @@ struct PrimitiveSource {
 /// The scene flattened for tracing: primitives in document order, and the leaf items (single
 /// primitives or whole shapes) that an octree distributes.
 struct Primitives {
-    std::vector<PrimitiveSource> sources;      ///< one per primitive
-    std::vector<PrimitiveId> item_first;       ///< item i holds primitives [item_first[i], item_first[i + 1])
-    std::vector<Bounds3> item_boxes;           ///< one per item
-    std::size_t zero_area_triangles = 0;       ///< left out: they can never be hit
+    std::vector<PrimitiveSource> sources;  ///< one per primitive
+    std::vector<PrimitiveId>
+        item_first;  ///< item i holds primitives [item_first[i], item_first[i + 1])
+    std::vector<Bounds3> item_boxes;      ///< one per item
+    std::size_t zero_area_triangles = 0;  ///< left out: they can never be hit
 
     std::size_t item_count() const { return item_boxes.size(); }
 };

@@ -38,7 +38,7 @@ class RayGenerator {
     Camera camera_;
     double width_;
     double height_;
-    double half_width_;   // of the image plane at distance 1
+    double half_width_;  // of the image plane at distance 1
     double half_height_;
 };
 

@@ -23,16 +23,16 @@ struct Light {
 
     Kind kind = Kind::kDirectional;
     Color color{1, 1, 1};
-    double intensity = 1;          ///< >= 0
-    double ambient_intensity = 0;  ///< 0..1
-    Vector3 direction{0, 0, -1};   ///< unit, the way the light travels; zero: lights nothing
-    Point3 location;               ///< point and spot lights
-    Vector3 attenuation{1, 0, 0};  ///< constant, linear, quadratic, in the light's own units
-    double radius = 100;           ///< nothing is lit beyond it; world units
-    double units_per_world = 1;    ///< the light's own length units in one world unit
-    double beam_width = 0.785398;      ///< radians [eq. 41]
-    double cut_off_angle = 1.570796;   ///< radians
-    bool casts_shadow = true;          ///< false for the headlight only
+    double intensity = 1;             ///< >= 0
+    double ambient_intensity = 0;     ///< 0..1
+    Vector3 direction{0, 0, -1};      ///< unit, the way the light travels; zero: lights nothing
+    Point3 location;                  ///< point and spot lights
+    Vector3 attenuation{1, 0, 0};     ///< constant, linear, quadratic, in the light's own units
+    double radius = 100;              ///< nothing is lit beyond it; world units
+    double units_per_world = 1;       ///< the light's own length units in one world unit
+    double beam_width = 0.785398;     ///< radians [eq. 41]
+    double cut_off_angle = 1.570796;  ///< radians
+    bool casts_shadow = true;         ///< false for the headlight only
     LightScope scope;
 
     friend bool operator==(const Light&, const Light&) = default;

@@ -27,8 +27,8 @@ struct Scene {
     Camera camera;
     Background background;
     std::vector<Material> materials;
-    std::vector<Object> objects;  ///< in document order
-    std::vector<Light> lights;    ///< on, in document order; the headlight, if any, last
+    std::vector<Object> objects;        ///< in document order
+    std::vector<Light> lights;          ///< on, in document order; the headlight, if any, last
     std::vector<std::string> warnings;  ///< what was read but not drawn, one line each
     std::size_t shape_count = 0;        ///< Shapes met, drawn or not
 };

@@ -22,8 +22,8 @@ struct Limits {
     std::size_t shapes = 2'000'000;     ///< Shapes after USE is expanded
 };
 
-/// NavigationInfo's headlight: `kAuto` follows the file and, where it is silent, lights only a scene
-/// that has no light of its own.
+/// NavigationInfo's headlight: `kAuto` follows the file and, where it is silent, lights only a
+/// scene that has no light of its own.
 enum class Headlight { kAuto, kOn, kOff };
 
 /// Reads an X3D file (XML encoding, root X3D or a bare Scene) into world space.

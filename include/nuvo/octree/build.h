@@ -1,0 +1,38 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <variant>
+
+#include "nuvo/octree/cost.h"
+#include "nuvo/octree/midpoint.h"
+#include "nuvo/octree/octree.h"
+
+namespace nuvo {
+
+/// Prices for a tree of so many leaves, fed to the one sah().
+using CostModel = std::function<SahCosts(std::size_t leaves)>;
+/// The assignment's stop rule: a voxel is cut until it holds at most `count` items. [COMP1011]
+struct MaxObjects {
+    std::size_t count = 1;
+};
+/// Whether item `id`, whose box overlaps the closed `box`, really has surface in it.
+using OverlapTest = std::function<bool(ItemId id, const Bounds3& box)>;
+
+struct BuildOptions {
+    MidpointStrategy midpoint = spatial_midpoint;
+    std::variant<CostModel, MaxObjects> worth = CostModel(CalibratedCosts{});
+    OverlapTest overlaps;  ///< empty: the boxes decide
+    double margin = 0;     ///< items are listed where they come this near; scene units
+    int max_depth = kMaxLabelDigits + 1;  ///< levels, 1..20
+};
+
+/// Cuts the box of all `boxes` into an octree, depth first in label order; a split under which the
+/// whole tree's SAH does not fall is taken back. [thesis 4.4.2, 5.4.1] Children of a cut that would
+/// be thinner than a few ulp of their coordinates on an axis are not cut on that axis.
+Octree build_octree(std::span<const Bounds3> boxes, const BuildOptions& options = {});
+
+/// Sums of a finished tree computed afresh, for comparison with the builder's running ones.
+SahTotals sah_totals(const Octree& octree);
+
+}  // namespace nuvo

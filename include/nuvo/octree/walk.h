@@ -1,0 +1,268 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "nuvo/octree/octree.h"
+
+namespace nuvo {
+
+/// Finds children through the hash map of names, as Glassner does. [thesis 4.4.4, 5.4]
+struct HashLocator {
+    static NodeIndex child(const Octree& octree, NodeIndex parent, int digit) {
+        return octree.names().find(child_label(octree.nodes()[parent].label, digit))->second;
+    }
+};
+
+/// Finds children through the array of nodes.
+struct DescentLocator {
+    static NodeIndex child(const Octree& octree, NodeIndex parent, int digit) {
+        return octree.nodes()[parent].child(digit);
+    }
+};
+
+/// Bound on how far, on any axis, the walk's computed path strays from the ray inside `root`: the
+/// margin by which items must be listed beyond their own extent. Derived in docs/numerics.md.
+double path_error_bound(const Bounds3& root);
+
+/// Glassner's walk without an epsilon: visits the leaves that the ray meets at 0 < t < t_end, in
+/// order, each once. `visit(leaf, exit)` gets the leaf and a lower bound of the t at which the ray
+/// leaves it, and returns true to end the walk. The state is a point that sits exactly on the
+/// stored face it crosses, so the walk always ends and needs no smallest voxel.
+template <typename Locator>
+class ExactWalk {
+  public:
+    explicit ExactWalk(const Octree& octree) : octree_(octree), nodes_(octree.nodes()) {}
+
+    template <typename Visit>
+    void operator()(const Ray& ray, double t_end, Visit&& visit) {
+        direction_ = ray.direction;
+        if (!enter(ray)) return;
+        path_[0] = 0;
+        level_ = 0;
+        for (;;) {
+            descend();
+            const Node& leaf = nodes_[path_[level_]];
+            const Bounds3& box = leaf.voxel.bounds;
+            const auto [axis, t] = exit_of(box);
+            const double exit = lower_bound_of(t);
+            if (visit(leaf, exit) || exit >= t_end || axis < 0) return;
+            cross(box, axis, t);
+            if (!climb()) return;
+        }
+    }
+
+  private:
+    struct Exit {
+        int axis;
+        double t;
+    };
+
+    static constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    static constexpr double kRoundoff = std::numeric_limits<double>::epsilon() / 2;
+
+    double heading_face(const Bounds3& box, int axis) const {
+        return direction_[axis] > 0 ? box.max[axis] : box.min[axis];
+    }
+
+    // Moves the origin to where the ray enters the root: first to a point of the ray just before
+    // it, correctly rounded by the fused operations, so that a distant origin costs no accuracy;
+    // then, from there, exactly onto the face.
+    bool enter(const Ray& ray) {
+        const Bounds3& root = nodes_[0].voxel.bounds;
+        origin_ = ray.origin;
+        base_ = 0;
+        if (!root.contains(origin_)) {
+            double t = 0;
+            int axis = 0;
+            if (!slab_entry(root, t, axis)) return false;
+            base_ = std::fmax(0.0, t * (1 - 8 * kRoundoff));
+            origin_ = {std::fma(base_, direction_.x, origin_.x),
+                       std::fma(base_, direction_.y, origin_.y),
+                       std::fma(base_, direction_.z, origin_.z)};
+        }
+        position_ = origin_;
+        if (root.contains(origin_)) return true;
+        double t = 0;
+        int axis = -1;
+        if (!slab_entry(root, t, axis)) return false;
+        for (int k = 0; k < 3; ++k)
+            position_[k] = std::clamp(origin_[k] + t * direction_[k], root.min[k], root.max[k]);
+        if (axis >= 0) position_[axis] = direction_[axis] > 0 ? root.min[axis] : root.max[axis];
+        return true;
+    }
+
+    // Conservative: false only when the ray surely passes the root.
+    bool slab_entry(const Bounds3& root, double& entry, int& entry_axis) const {
+        double exit = kInfinity;
+        entry = 0;
+        entry_axis = -1;
+        for (int axis = 0; axis < 3; ++axis) {
+            const double d = direction_[axis];
+            if (d == 0) {
+                if (origin_[axis] < root.min[axis] || origin_[axis] > root.max[axis]) return false;
+                continue;
+            }
+            const double near = (d > 0 ? root.min : root.max)[axis];
+            const double t_near = (near - origin_[axis]) / d;
+            if (t_near > entry) {
+                entry = t_near;
+                entry_axis = axis;
+            }
+            exit = std::fmin(exit, (heading_face(root, axis) - origin_[axis]) / d);
+        }
+        return entry <= exit + 8 * kRoundoff * (entry + std::fabs(exit));
+    }
+
+    // From the path's last node down to the leaf that the ray is in at, or just after, position_:
+    // on a midpoint's plane the side it is heading for.
+    void descend() {
+        while (!nodes_[path_[level_]].is_leaf()) {
+            const NodeIndex parent = path_[level_];
+            const Point3& mid = nodes_[parent].voxel.midpoint;
+            const int bits =
+                (upper(0, mid.x) ? 1 : 0) | (upper(1, mid.y) ? 2 : 0) | (upper(2, mid.z) ? 4 : 0);
+            path_[++level_] = Locator::child(octree_, parent, octant_digit(bits));
+        }
+    }
+    bool upper(int axis, double plane) const {
+        return direction_[axis] < 0 ? position_[axis] > plane : position_[axis] >= plane;
+    }
+
+    Exit exit_of(const Bounds3& box) const {
+        Exit exit{-1, kInfinity};
+        for (int axis = 0; axis < 3; ++axis) {
+            if (direction_[axis] == 0) continue;
+            const double t = (heading_face(box, axis) - origin_[axis]) / direction_[axis];
+            if (exit.axis < 0 || t < exit.t) exit = {axis, t};
+        }
+        return exit;
+    }
+
+    double lower_bound_of(double t) const {
+        return (base_ + t) - 8 * kRoundoff * (base_ + std::fabs(t));
+    }
+
+    // Onto the face that is left; the other axes follow the ray without ever going back.
+    void cross(const Bounds3& box, int exit_axis, double t) {
+        for (int k = 0; k < 3; ++k) {
+            const double d = direction_[k];
+            if (d == 0) continue;
+            if (k == exit_axis) {
+                position_[k] = heading_face(box, k);
+            } else {
+                const double next = origin_[k] + t * d;
+                position_[k] = d > 0 ? std::clamp(next, position_[k], box.max[k])
+                                     : std::clamp(next, box.min[k], position_[k]);
+            }
+        }
+    }
+
+    // Up to the lowest ancestor that position_ has not left; false when it has left the root.
+    bool climb() {
+        for (; level_ >= 0; --level_) {
+            const Bounds3& box = nodes_[path_[level_]].voxel.bounds;
+            if (inside(0, box) && inside(1, box) && inside(2, box)) return true;
+        }
+        return false;
+    }
+    bool inside(int axis, const Bounds3& box) const {
+        const double d = direction_[axis];
+        return d > 0   ? position_[axis] < box.max[axis]
+               : d < 0 ? position_[axis] > box.min[axis]
+                       : true;
+    }
+
+    const Octree& octree_;
+    std::span<const Node> nodes_;
+    Vector3 direction_;
+    Point3 origin_;    // of the walk: the ray's own, or its entry into the root
+    double base_ = 0;  // t of the walk's origin on the ray
+    Point3 position_;
+    std::array<NodeIndex, kMaxLabelDigits + 1> path_{};  // from the root to the current node
+    int level_ = 0;
+};
+
+/// The published walk: a point is pushed past each face by `step` times the smallest voxel width.
+/// `visit(leaf)` returns true to end the walk. Leaves can be missed, and the walk gives up where
+/// the pushed point does not leave its leaf. [thesis 4.4.4, 5.4.3]
+template <typename T, typename Locator>
+class NudgedWalk {
+  public:
+    NudgedWalk(const Octree& octree, double step)
+        : octree_(octree), push_(static_cast<T>(step * octree.smallest_width())) {}
+
+    /// Walks from the ray's origin. `on_search` is called for each search of a next leaf.
+    template <typename OnSearch, typename Visit>
+    void operator()(const RayT<T>& ray, OnSearch&& on_search, Visit&& visit) const {
+        NodeIndex leaf = 0;
+        const T push = push_ / length(ray.direction);
+        const Bounds3T<T> root = bounds_of(octree_.root());
+        if (contains(root, ray.origin)) {
+            leaf = find(ray.origin);
+        } else {
+            const auto [near, far] = crossings(root, ray);
+            if (!(near <= far && far > 0)) return;
+            if (!octree_.root().is_leaf()) {
+                on_search();
+                const Vec3<T> p = ray.at(near + push);
+                if (!contains(root, p)) return;
+                leaf = find(p);
+            }
+        }
+        for (;;) {
+            const Node& node = octree_.nodes()[leaf];
+            if (visit(node)) return;
+            on_search();
+            const Vec3<T> p = ray.at(crossings(bounds_of(node), ray).far + push);
+            if (!contains(root, p)) return;
+            const NodeIndex next = find(p);
+            if (next == leaf) return;  // the endless loop of thesis 5.4.2, cut short
+            leaf = next;
+        }
+    }
+
+    static Bounds3T<T> bounds_of(const Node& node) {
+        return {Vec3<T>(node.voxel.bounds.min), Vec3<T>(node.voxel.bounds.max)};
+    }
+
+  private:
+    struct Crossings {
+        T near;
+        T far;
+    };
+
+    static bool contains(const Bounds3T<T>& box, const Vec3<T>& p) { return box.contains(p); }
+
+    static Crossings crossings(const Bounds3T<T>& box, const RayT<T>& ray) {
+        Crossings c{-std::numeric_limits<T>::infinity(), std::numeric_limits<T>::infinity()};
+        for (int axis = 0; axis < 3; ++axis) {
+            const T o = ray.origin[axis];
+            const T d = ray.direction[axis];
+            if (d == 0) {
+                if (o < box.min[axis] || box.max[axis] < o) return {T(1), T(0)};
+                continue;
+            }
+            const T t0 = (box.min[axis] - o) / d;
+            const T t1 = (box.max[axis] - o) / d;
+            c.near = std::max(c.near, std::min(t0, t1));
+            c.far = std::min(c.far, std::max(t0, t1));
+        }
+        return c;
+    }
+
+    NodeIndex find(const Vec3<T>& p) const {
+        const Point3 point(p);
+        NodeIndex index = 0;
+        while (!octree_.nodes()[index].is_leaf())
+            index = Locator::child(octree_, index, octree_.nodes()[index].voxel.octant_of(point));
+        return index;
+    }
+
+    const Octree& octree_;
+    T push_;
+};
+
+}  // namespace nuvo

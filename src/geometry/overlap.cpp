@@ -1,0 +1,68 @@
+#include "nuvo/geometry/overlap.h"
+
+#include <cmath>
+#include <limits>
+
+namespace nuvo {
+namespace {
+
+// gamma(n) = n u / (1 - n u) bounds the relative error of n roundings (Higham 2002, lemma 3.1).
+constexpr double gamma(int n) {
+    constexpr double kRoundoff = std::numeric_limits<double>::epsilon() / 2;
+    return n * kRoundoff / (1 - n * kRoundoff);
+}
+
+Vector3 absolute(const Vector3& v) { return {std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}; }
+
+// True when the projections of the corners v onto `axis` all lie beyond the box's, by more than
+// `error`, the rounding of one projection.
+bool separated(const Vector3& axis, const Vector3 (&v)[3], const Vector3& half, double error) {
+    const double p0 = dot(axis, v[0]);
+    const double p1 = dot(axis, v[1]);
+    const double p2 = dot(axis, v[2]);
+    const double reach = dot(half, absolute(axis)) + error;
+    return std::fmin(p0, std::fmin(p1, p2)) > reach || std::fmax(p0, std::fmax(p1, p2)) < -reach;
+}
+
+}  // namespace
+
+bool overlaps(const Triangle& triangle, const Bounds3& box) {
+    if (!triangle.bounds().overlaps(box)) return false;
+    const Point3 center = box.center();
+    // Rounding of the centre, of the half widths and of the corners' differences.
+    const double size = std::fmax(max_norm(box.min), max_norm(box.max));
+    const double slack = gamma(4) * size;
+    const Vector3 half = box.widths() * 0.5 + Vector3{slack, slack, slack};
+    const Vector3 v[3] = {triangle.a - center, triangle.b - center, triangle.c - center};
+    const Vector3 edge[3] = {triangle.b - triangle.a, triangle.c - triangle.b,
+                             triangle.a - triangle.c};
+    const double reach = max_norm(v[0]) + max_norm(v[1]) + max_norm(v[2]) + max_norm(half);
+
+    // Plane: three products of three factors, each factor rounded.
+    const double edges = max_norm(edge[0]) * max_norm(edge[1]);
+    if (separated(cross(edge[0], edge[1]), v, half, gamma(40) * edges * reach)) return false;
+    for (const Vector3& e : edge) {
+        const double error = gamma(16) * max_norm(e) * reach;
+        if (separated({0, -e.z, e.y}, v, half, error) ||
+            separated({e.z, 0, -e.x}, v, half, error) || separated({-e.y, e.x, 0}, v, half, error))
+            return false;
+    }
+    return true;
+}
+
+bool overlaps(const Sphere& sphere, const Bounds3& box) {
+    double nearest = 0;  // squared distances from the centre to the box
+    double farthest = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double below = box.min[axis] - sphere.center[axis];
+        const double above = sphere.center[axis] - box.max[axis];
+        const double outside = std::fmax(0.0, std::fmax(below, above));
+        const double across = std::fmax(std::fabs(below), std::fabs(above));
+        nearest += outside * outside;
+        farthest += across * across;
+    }
+    const double squared = sphere.radius * sphere.radius;
+    return nearest <= squared * (1 + gamma(8)) && farthest >= squared * (1 - gamma(8));
+}
+
+}  // namespace nuvo

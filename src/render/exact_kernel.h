@@ -1,0 +1,131 @@
+#pragma once
+
+#include <limits>
+#include <optional>
+
+#include "nuvo/geometry/predicates.h"
+#include "nuvo/render/primitives.h"
+#include "primitive_store.h"
+#include "surface.h"
+
+namespace nuvo {
+
+/// Every decision as exact arithmetic on the scene's doubles makes it (docs/numerics.md).
+class ExactKernel {
+  public:
+    using Scalar = double;
+    using PreparedRay = ExactRay;
+    struct Hit {
+        PrimitiveId primitive;
+        Root root;
+        SphereRoot which = SphereRoot::kNear;
+    };
+    struct Surface {
+        Point3 point;
+        Vector3 normal;  // shading
+        double error;    // of the point, on each axis
+        PrimitiveId primitive;
+    };
+    struct Shadow {
+        ExactRay ray;
+        double end;  // of the way to the light, in units of the ray's direction
+        double origin_error;
+        std::optional<PrimitiveId> from;  // the primitive that is lit; none: the bias has left it
+    };
+    static constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+    ExactKernel(const Scene& scene, const Primitives& primitives, std::optional<double> bias)
+        : store_(scene, primitives), bias_(bias) {}
+
+    const PrimitiveSource& source(PrimitiveId id) const { return store_.source(id); }
+    const StageCounts& stage_counts() const { return counts_; }
+
+    PreparedRay prepare(const Ray& ray) const { return ExactRay(ray); }
+    Ray walk_ray(const ExactRay& ray) const { return {ray.origin(), ray.direction()}; }
+    Ray nudged_ray(const ExactRay& ray) const { return walk_ray(ray); }
+
+    /// Replaces `best` by the hit on primitive `id` if that is nearer, or as near and earlier in
+    /// the document.
+    void closest(const ExactRay& ray, PrimitiveId id, std::optional<Hit>& best) const {
+        const std::optional<Hit> hit =
+            store_.visit(id, [&](const auto& primitive) { return hit_on(ray, primitive, id); });
+        if (hit && (!best || precedes(ray, *hit, *best))) best = hit;
+    }
+    double t(const Hit& hit) const { return hit.root.t; }
+    double upper_t(const Hit& hit) const { return hit.root.high; }
+
+    Surface surface(const ExactRay& ray, const Hit& hit, const Object& object) const {
+        const SurfacePoint point = store_.visit(hit.primitive, [&](const auto& primitive) {
+            if constexpr (std::is_same_v<std::decay_t<decltype(primitive)>, Triangle>)
+                return surface_point(ray, primitive);
+            else
+                return surface_point(ray, primitive, hit.which);
+        });
+        const Vector3 normal = shading_normal(object, source(hit.primitive).triangle, point.normal,
+                                              point.uv, ray.direction());
+        return {point.point, normal, point.error, hit.primitive};
+    }
+
+    Shadow shadow(const Surface& surface, const Light& light) const {
+        const Point3 origin = bias_ ? surface.point + surface.normal * *bias_ : surface.point;
+        const double error = bias_ ? 0 : surface.error;
+        const auto from = bias_ ? std::nullopt : std::optional<PrimitiveId>(surface.primitive);
+        if (light.kind == Light::Kind::kDirectional)
+            return {ExactRay(Ray{origin, -light.direction}), kInfinity, error, from};
+        return {ExactRay::between(origin, light.location), 1, error, from};
+    }
+
+    bool blocks(const Shadow& shadow, PrimitiveId id) const {
+        return blocks_before(shadow, shadow.end, id);
+    }
+    /// Where the shadow ray first meets the primitive, before or behind the light; infinity: never.
+    double shadow_t(const Shadow& shadow, PrimitiveId id) const {
+        if (!blocks_before(shadow, kInfinity, id)) return kInfinity;
+        return store_.visit(id, [&](const auto& primitive) {
+            const std::optional<Hit> hit = hit_on(shadow.ray, primitive, id);
+            return hit ? hit->root.t : kInfinity;
+        });
+    }
+
+  private:
+    std::optional<Hit> hit_on(const ExactRay& ray, const Triangle& triangle, PrimitiveId id) const {
+        const std::optional<Root> root = hit(ray, triangle, counts_);
+        if (!root) return std::nullopt;
+        return Hit{id, *root};
+    }
+    template <typename Quadric>
+    std::optional<Hit> hit_on(const ExactRay& ray, const Quadric& quadric, PrimitiveId id) const {
+        const std::optional<SphereHit> found = hit(ray, quadric, counts_);
+        if (!found) return std::nullopt;
+        return Hit{id, found->root, found->which};
+    }
+
+    bool precedes(const ExactRay& ray, const Hit& a, const Hit& b) const {
+        if (a.root.high < b.root.low) return true;
+        if (b.root.high < a.root.low) return false;
+        const int order = compare_roots(ray, hit_primitive(a), hit_primitive(b), counts_);
+        return order < 0 || (order == 0 && a.primitive < b.primitive);
+    }
+    HitPrimitive hit_primitive(const Hit& hit) const {
+        return store_.visit(hit.primitive, [&](const auto& primitive) {
+            return HitPrimitive{&primitive, hit.which};
+        });
+    }
+
+    bool blocks_before(const Shadow& shadow, double end, PrimitiveId id) const {
+        const bool self = shadow.from && *shadow.from == id;
+        return store_.visit(id, [&](const auto& primitive) {
+            if constexpr (std::is_same_v<std::decay_t<decltype(primitive)>, Triangle>)
+                return !self &&
+                       nuvo::blocks(shadow.ray, end, shadow.origin_error, primitive, counts_);
+            else
+                return nuvo::blocks(shadow.ray, end, shadow.origin_error, primitive, self, counts_);
+        });
+    }
+
+    PrimitiveStore<double> store_;
+    std::optional<double> bias_;
+    mutable StageCounts counts_;
+};
+
+}  // namespace nuvo

@@ -1,0 +1,196 @@
+#pragma once
+
+#include <optional>
+
+#include "nuvo/octree/walk.h"
+#include "nuvo/render/primitives.h"
+#include "nuvo/render/render.h"
+
+// The ways to find what a ray meets. Each search is built from a kernel, which answers for one
+// primitive and one ray (exact_kernel.h, plain_kernel.h), and offers
+//   closest(ray)     -> std::optional<Kernel::Hit>
+//   occluded(shadow) -> bool
+
+namespace nuvo {
+
+/// Counts nothing, at no cost.
+struct NoCounter {
+    void count_tests(std::size_t) const {}
+    void count_search() const {}
+};
+
+/// Counts as the thesis does.
+struct EventCounter {
+    TraceCounts* counts;
+    void count_tests(std::size_t n) const { counts->intersection_tests += n; }
+    void count_search() const { ++counts->voxel_searches; }
+};
+
+/// Every primitive against every ray.
+template <typename Kernel>
+class BruteForceSearch {
+  public:
+    BruteForceSearch(const Kernel& kernel, const Primitives& primitives)
+        : kernel_(kernel), count_(static_cast<PrimitiveId>(primitives.sources.size())) {}
+
+    std::optional<typename Kernel::Hit> closest(const typename Kernel::PreparedRay& ray) const {
+        std::optional<typename Kernel::Hit> best;
+        for (PrimitiveId id = 0; id < count_; ++id) kernel_.closest(ray, id, best);
+        return best;
+    }
+    bool occluded(const typename Kernel::Shadow& shadow) const {
+        for (PrimitiveId id = 0; id < count_; ++id)
+            if (kernel_.blocks(shadow, id)) return true;
+        return false;
+    }
+
+  private:
+    const Kernel& kernel_;
+    PrimitiveId count_;
+};
+
+/// Through the octree by the walk without an epsilon: no hit is missed.
+template <typename Kernel, typename Locator, typename Counter>
+class ExactSearch {
+  public:
+    ExactSearch(const Kernel& kernel, const Primitives& primitives, const Octree& octree,
+                Counter counter)
+        : kernel_(kernel),
+          primitives_(primitives),
+          octree_(octree),
+          walk_(octree),
+          counter_(counter) {}
+
+    std::optional<typename Kernel::Hit> closest(const typename Kernel::PreparedRay& ray) {
+        std::optional<typename Kernel::Hit> best;
+        bool first_leaf = true;
+        walk_(kernel_.walk_ray(ray), Kernel::kInfinity, [&](const Node& leaf, double exit) {
+            // What is listed near a leaf but met beyond it is met again in its own leaf, so the
+            // nearest hit is final once the ray leaves the leaf no earlier than there.
+            count_leaf(leaf, first_leaf);
+            for_each_primitive(leaf, [&](PrimitiveId id) {
+                kernel_.closest(ray, id, best);
+                return false;
+            });
+            return best && kernel_.upper_t(*best) <= exit;
+        });
+        return best;
+    }
+
+    bool occluded(const typename Kernel::Shadow& shadow) {
+        bool blocked = false;
+        bool first_leaf = false;  // it holds the origin and is not searched for
+        walk_(kernel_.walk_ray(shadow.ray), shadow.end, [&](const Node& leaf, double) {
+            count_leaf(leaf, first_leaf);
+            return blocked = for_each_primitive(
+                       leaf, [&](PrimitiveId id) { return kernel_.blocks(shadow, id); });
+        });
+        return blocked;
+    }
+
+  private:
+    // [5.7] The root alone is not searched for either.
+    void count_leaf(const Node& leaf, bool& first_leaf) {
+        if (!first_leaf || !octree_.root().is_leaf()) counter_.count_search();
+        first_leaf = false;
+        counter_.count_tests(leaf.item_count);
+    }
+
+    template <typename Visit>
+    bool for_each_primitive(const Node& leaf, Visit&& visit) const {
+        for (ItemId item : octree_.contents(leaf))
+            for (PrimitiveId id = primitives_.item_first[item];
+                 id < primitives_.item_first[item + 1]; ++id)
+                if (visit(id)) return true;
+        return false;
+    }
+
+    const Kernel& kernel_;
+    const Primitives& primitives_;
+    const Octree& octree_;
+    ExactWalk<Locator> walk_;
+    Counter counter_;
+};
+
+/// Through the octree as published: the first leaf with a hit inside its own bounds decides, and
+/// hits outside the leaf are ignored. [thesis 5.4.3]
+template <typename Kernel, typename Locator, typename Counter>
+class NudgedSearch {
+    using Scalar = typename Kernel::Scalar;
+
+  public:
+    NudgedSearch(const Kernel& kernel, const Primitives& primitives, const Octree& octree,
+                 double step, Counter counter)
+        : kernel_(kernel),
+          primitives_(primitives),
+          octree_(octree),
+          walk_(octree, step),
+          counter_(counter) {}
+
+    std::optional<typename Kernel::Hit> closest(const typename Kernel::PreparedRay& ray) const {
+        std::optional<typename Kernel::Hit> best;
+        const RayT<Scalar> line(kernel_.nudged_ray(ray));
+        walk(line, [&](const Node& leaf) {
+            for (ItemId item : octree_.contents(leaf)) {
+                std::optional<typename Kernel::Hit> nearest;
+                for_each_primitive(item,
+                                   [&](PrimitiveId id) { kernel_.closest(ray, id, nearest); });
+                if (nearest && inside(leaf, line, kernel_.t(*nearest)) &&
+                    (!best || kernel_.t(*nearest) < kernel_.t(*best)))
+                    best = nearest;
+            }
+            return best.has_value();
+        });
+        return best;
+    }
+
+    /// The first hit on the way decides: it blocks if it lies before the light. [thesis 5.3.2]
+    bool occluded(const typename Kernel::Shadow& shadow) const {
+        Scalar first = Kernel::kInfinity;
+        const RayT<Scalar> line(kernel_.nudged_ray(shadow.ray));
+        walk(line, [&](const Node& leaf) {
+            for (ItemId item : octree_.contents(leaf)) {
+                Scalar nearest = Kernel::kInfinity;
+                for_each_primitive(item, [&](PrimitiveId id) {
+                    nearest = std::min(nearest, kernel_.shadow_t(shadow, id));
+                });
+                if (nearest < first && inside(leaf, line, nearest)) first = nearest;
+            }
+            return first < Kernel::kInfinity;
+        });
+        return first < shadow.end;
+    }
+
+  private:
+    // Slack of the bounds check, in scene units: the thesis' epsilon. [5.5]
+    static constexpr Scalar kTolerance = static_cast<Scalar>(1e-6);
+
+    template <typename Visit>
+    void walk(const RayT<Scalar>& line, Visit&& visit) const {
+        walk_(
+            line, [&] { counter_.count_search(); },
+            [&](const Node& leaf) {
+                counter_.count_tests(leaf.item_count);
+                return visit(leaf);
+            });
+    }
+
+    bool inside(const Node& leaf, const RayT<Scalar>& line, Scalar t) const {
+        return decltype(walk_)::bounds_of(leaf).inflated(kTolerance).contains(line.at(t));
+    }
+
+    template <typename Visit>
+    void for_each_primitive(ItemId item, Visit&& visit) const {
+        for (PrimitiveId id = primitives_.item_first[item]; id < primitives_.item_first[item + 1];
+             ++id)
+            visit(id);
+    }
+
+    const Kernel& kernel_;
+    const Primitives& primitives_;
+    const Octree& octree_;
+    NudgedWalk<Scalar, Locator> walk_;
+    Counter counter_;
+};
+
+}  // namespace nuvo

@@ -1,0 +1,66 @@
+#include "nuvo/render/shading.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nuvo {
+namespace {
+
+// [eq. 38, 39]
+double attenuation(const Light& light, double distance) {
+    const double d = distance * light.units_per_world;
+    const Vector3& c = light.attenuation;
+    return 1 / std::max(c.x + c.y * d + c.z * d * d, 1.0);
+}
+
+// [eq. 40, 41] The cut-off is tested first, so that equal angles divide nothing by zero.
+double spot_factor(const Light& light, const Vector3& to_light) {
+    const double angle = std::acos(std::clamp(dot(-to_light, light.direction), 0.0, 1.0));
+    if (angle >= light.cut_off_angle) return 0;
+    if (angle <= light.beam_width) return 1;
+    return (angle - light.cut_off_angle) / (light.beam_width - light.cut_off_angle);
+}
+
+std::uint8_t quantized(double channel) {
+    if (!(channel > 0)) return 0;
+    return static_cast<std::uint8_t>(std::floor(std::min(channel, 1.0) * 255 + 0.5));
+}
+
+}  // namespace
+
+std::optional<LightSample> sample_light(const Light& light, const Point3& point) {
+    if (light.kind == Light::Kind::kDirectional) {
+        if (light.direction == Vector3{}) return std::nullopt;
+        return LightSample{-light.direction, 1};
+    }
+    const Vector3 way = light.location - point;
+    const double distance = length(way);
+    if (distance == 0 || distance > light.radius) return std::nullopt;
+    LightSample sample{way / distance, attenuation(light, distance)};
+    if (light.kind == Light::Kind::kSpot) {
+        if (light.direction == Vector3{}) return std::nullopt;
+        sample.strength *= spot_factor(light, sample.to_light);
+    }
+    if (!(sample.strength > 0)) return std::nullopt;
+    return sample;
+}
+
+Color light_contribution(const Light& light, const LightSample& sample, const Material& material,
+                         const Vector3& normal, const Vector3& to_viewer) {
+    const double ambient = light.ambient_intensity * material.ambient_intensity;  // [eq. 42]
+    const double diffuse = light.intensity * std::max(0.0, dot(normal, sample.to_light));  // [43]
+    Color reflected = material.diffuse_color * ambient + material.diffuse_color * diffuse;
+    if (material.specular_color != Color{}) {  // [eq. 44]
+        const Vector3 halfway = normalized(sample.to_light + to_viewer);
+        const double cosine = std::max(0.0, dot(normal, halfway));
+        const double lobe = std::pow(cosine, 128 * material.shininess);
+        reflected += material.specular_color * (light.intensity * lobe);
+    }
+    return light.color * reflected * sample.strength;  // [eq. 37]
+}
+
+Rgb8 quantized(const Color& color) {
+    return {quantized(color.x), quantized(color.y), quantized(color.z)};
+}
+
+}  // namespace nuvo

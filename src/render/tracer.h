@@ -1,0 +1,64 @@
+#pragma once
+
+#include "nuvo/render/render.h"
+#include "nuvo/render/shading.h"
+
+namespace nuvo {
+
+/// The serial reference tracer: one primary ray a pixel, one shadow ray a light that reaches the
+/// hit point, no recursion. [thesis 4.1, 4.3.2, 5.3.2] `Kernel` decides how exact, `Search` how
+/// fast.
+template <typename Kernel, typename Search>
+class Tracer {
+  public:
+    Tracer(const Scene& scene, const Kernel& kernel, Search search)
+        : scene_(scene), kernel_(kernel), search_(std::move(search)) {}
+
+    Image image(Resolution resolution) {
+        Image image(resolution.width, resolution.height);
+        const RayGenerator rays(scene_.camera, resolution);
+        for (int y = 0; y < resolution.height; ++y)
+            for (int x = 0; x < resolution.width; ++x)
+                image.at(x, y) = quantized(color(rays.ray(x, y)));
+        return image;
+    }
+
+    /// [eq. 36, 37] `ray` has unit direction.
+    Color color(const Ray& ray) {
+        ++primary_rays_;
+        const auto prepared = kernel_.prepare(ray);
+        const auto hit = search_.closest(prepared);
+        if (!hit) return scene_.background.color(ray.direction);
+        const std::uint32_t index = kernel_.source(hit->primitive).object;
+        const Object& object = scene_.objects[index];
+        const Material& material = scene_.materials[object.material];
+        Color sum = material.emissive_color;
+        if (!material.lit) return sum;
+        const auto surface = kernel_.surface(prepared, *hit, object);
+        for (const Light& light : scene_.lights) {
+            if (!light.scope.includes(index)) continue;
+            const std::optional<LightSample> sample = sample_light(light, surface.point);
+            if (!sample || (light.casts_shadow && blocked(surface, light))) continue;
+            sum += light_contribution(light, *sample, material, surface.normal, -ray.direction);
+        }
+        return sum;
+    }
+
+    std::uint64_t primary_rays() const { return primary_rays_; }
+    std::uint64_t shadow_rays() const { return shadow_rays_; }
+
+  private:
+    template <typename Surface>
+    bool blocked(const Surface& surface, const Light& light) {
+        ++shadow_rays_;
+        return search_.occluded(kernel_.shadow(surface, light));
+    }
+
+    const Scene& scene_;
+    const Kernel& kernel_;
+    Search search_;
+    std::uint64_t primary_rays_ = 0;
+    std::uint64_t shadow_rays_ = 0;
+};
+
+}  // namespace nuvo
