@@ -2,6 +2,7 @@
 
 #include <limits>
 #include <optional>
+#include <type_traits>
 
 #include "nuvo/geometry/predicates.h"
 #include "nuvo/render/primitives.h"
@@ -123,7 +124,7 @@ class ExactKernel {
         });
     }
 
-    PrimitiveStore<double> store_;
+    PrimitiveStore<Triangle, Sphere, Ellipsoid> store_;
     std::optional<double> bias_;
     mutable StageCounts counts_;
 };

@@ -1,26 +1,16 @@
 #pragma once
 
 #include <cstdint>
-#include <type_traits>
 #include <vector>
 
 #include "nuvo/render/primitives.h"
 
 namespace nuvo {
 
-/// A triangle's corners in single precision.
-struct TriangleF {
-    Vec3<float> a;
-    Vec3<float> b;
-    Vec3<float> c;
-};
-
 /// The primitives' coordinates side by side, one array a kind, found by PrimitiveId. A kind that
-/// the scene lacks costs nothing. T is the precision the triangles are kept in.
-template <typename T>
+/// the scene lacks costs nothing. The three types are made from Triangle, Sphere and Ellipsoid.
+template <typename TriangleT, typename SphereT, typename EllipsoidT>
 class PrimitiveStore {
-    using StoredTriangle = std::conditional_t<std::is_same_v<T, double>, Triangle, TriangleF>;
-
   public:
     PrimitiveStore(const Scene& scene, const Primitives& primitives)
         : sources_(primitives.sources) {
@@ -30,7 +20,7 @@ class PrimitiveStore {
 
     const PrimitiveSource& source(PrimitiveId id) const { return sources_[id]; }
 
-    /// Calls `use` with the triangle, Sphere or Ellipsoid of that id.
+    /// Calls `use` with the triangle, sphere or ellipsoid of that id.
     template <typename Use>
     auto visit(PrimitiveId id, Use&& use) const {
         const std::uint32_t slot = slots_[id];
@@ -48,27 +38,22 @@ class PrimitiveStore {
 
     void add(const Object& object, const PrimitiveSource& source) {
         if (const auto* mesh = std::get_if<TriangleMesh>(&object.shape)) {
-            const Triangle triangle = mesh->triangle(source.triangle);
             slots_.push_back(static_cast<std::uint32_t>(triangles_.size()));
-            if constexpr (std::is_same_v<T, double>)
-                triangles_.push_back(triangle);
-            else
-                triangles_.push_back(
-                    {Vec3<float>(triangle.a), Vec3<float>(triangle.b), Vec3<float>(triangle.c)});
+            triangles_.push_back(TriangleT(mesh->triangle(source.triangle)));
         } else if (const auto* sphere = std::get_if<Sphere>(&object.shape)) {
             slots_.push_back(kSphere | static_cast<std::uint32_t>(spheres_.size()));
-            spheres_.push_back(*sphere);
+            spheres_.push_back(SphereT(*sphere));
         } else {
             slots_.push_back(kEllipsoid | static_cast<std::uint32_t>(ellipsoids_.size()));
-            ellipsoids_.push_back(std::get<Ellipsoid>(object.shape));
+            ellipsoids_.push_back(EllipsoidT(std::get<Ellipsoid>(object.shape)));
         }
     }
 
     const std::vector<PrimitiveSource>& sources_;
     std::vector<std::uint32_t> slots_;
-    std::vector<StoredTriangle> triangles_;
-    std::vector<Sphere> spheres_;
-    std::vector<Ellipsoid> ellipsoids_;
+    std::vector<TriangleT> triangles_;
+    std::vector<SphereT> spheres_;
+    std::vector<EllipsoidT> ellipsoids_;
 };
 
 }  // namespace nuvo

@@ -93,7 +93,7 @@ std::vector<RayAnswer> answers(const Scene& scene, const Kernel& kernel, Search 
         if (hit) {
             const PrimitiveSource& source = kernel.source(hit->primitive);
             answer = {true, scene.objects[source.object].shape_index, source.triangle,
-                      kernel.t_of(ray, *hit)};
+                      static_cast<double>(kernel.t(*hit))};
         }
         out.push_back(answer);
     }

@@ -1,0 +1,145 @@
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <type_traits>
+
+#include "nuvo/geometry/plain_tests.h"
+#include "nuvo/render/primitives.h"
+#include "primitive_store.h"
+#include "surface.h"
+
+namespace nuvo {
+
+/// The thesis' arithmetic: plain tests in T, float as published or double. What rounding decides it
+/// decides; the kernel is there to be measured against ExactKernel.
+template <typename T>
+class PlainKernel {
+    struct PlainTriangle {
+        Vec3<T> a, b, c;
+        explicit PlainTriangle(const Triangle& t) : a(t.a), b(t.b), c(t.c) {}
+    };
+    struct PlainSphere {
+        Vec3<T> center;
+        T radius;
+        explicit PlainSphere(const Sphere& s)
+            : center(s.center), radius(static_cast<T>(s.radius)) {}
+    };
+    using PlainEllipsoid = plain::LocalEllipsoid<T>;
+
+  public:
+    using Scalar = T;
+    using PreparedRay = RayT<T>;
+    struct Hit {
+        PrimitiveId primitive;
+        T t;
+        Vec2<T> uv;
+    };
+    struct Surface {
+        Point3 point;
+        Vector3 normal;  // shading
+        PrimitiveId primitive;
+    };
+    struct Shadow {
+        RayT<T> ray;
+        T end;                            // of the way to the light
+        std::optional<PrimitiveId> from;  // the primitive that is lit; none: the bias has left it
+    };
+    static constexpr T kInfinity = std::numeric_limits<T>::infinity();
+
+    PlainKernel(const Scene& scene, const Primitives& primitives, std::optional<double> bias)
+        : store_(scene, primitives), bias_(bias) {}
+
+    const PrimitiveSource& source(PrimitiveId id) const { return store_.source(id); }
+
+    PreparedRay prepare(const Ray& ray) const {
+        return {Vec3<T>(ray.origin), Vec3<T>(ray.direction)};
+    }
+    Ray walk_ray(const RayT<T>& ray) const { return {Point3(ray.origin), Vector3(ray.direction)}; }
+    const RayT<T>& nudged_ray(const RayT<T>& ray) const { return ray; }
+
+    void closest(const RayT<T>& ray, PrimitiveId id, std::optional<Hit>& best) const {
+        store_.visit(id, [&](const auto& primitive) {
+            const std::optional<plain::Hit<T>> hit = test(ray, primitive);
+            if (hit && (!best || hit->t < best->t || (hit->t == best->t && id < best->primitive)))
+                best = Hit{id, hit->t, hit->uv};
+        });
+    }
+    T t(const Hit& hit) const { return hit.t; }
+    T upper_t(const Hit& hit) const { return hit.t; }
+
+    Surface surface(const RayT<T>& ray, const Hit& hit, const Object& object) const {
+        const Vec3<T> point = ray.at(hit.t);
+        const Vec3<T> normal = store_.visit(hit.primitive, [&](const auto& primitive) {
+            return geometric_normal(primitive, point);
+        });
+        return {Point3(point),
+                shading_normal(object, source(hit.primitive).triangle, Vector3(normal),
+                               Vec2<double>{hit.uv.x, hit.uv.y}, Vector3(ray.direction)),
+                hit.primitive};
+    }
+
+    Shadow shadow(const Surface& surface, const Light& light) const {
+        const Point3 origin = bias_ ? surface.point + surface.normal * *bias_ : surface.point;
+        const auto from = bias_ ? std::nullopt : std::optional<PrimitiveId>(surface.primitive);
+        if (light.kind == Light::Kind::kDirectional)
+            return {{Vec3<T>(origin), Vec3<T>(-light.direction)}, kInfinity, from};
+        const Vec3<T> way = Vec3<T>(light.location) - Vec3<T>(origin);
+        const T distance = length(way);
+        return {{Vec3<T>(origin), way / distance}, distance, from};
+    }
+
+    bool blocks(const Shadow& shadow, PrimitiveId id) const {
+        return shadow_t(shadow, id) < shadow.end;
+    }
+    /// Where the shadow ray first meets the primitive, before or behind the light; infinity: never.
+    T shadow_t(const Shadow& shadow, PrimitiveId id) const {
+        return store_.visit(id, [&](const auto& primitive) {
+            if (shadow.from && *shadow.from == id) return other_root(shadow.ray, primitive);
+            const std::optional<plain::Hit<T>> hit = test(shadow.ray, primitive);
+            return hit ? hit->t : kInfinity;
+        });
+    }
+
+  private:
+    static std::optional<plain::Hit<T>> test(const RayT<T>& ray, const PlainTriangle& p) {
+        return plain::hit(ray, p.a, p.b, p.c);
+    }
+    static std::optional<plain::Hit<T>> test(const RayT<T>& ray, const PlainSphere& p) {
+        return plain::hit(ray, p.center, p.radius);
+    }
+    static std::optional<plain::Hit<T>> test(const RayT<T>& ray, const PlainEllipsoid& p) {
+        return plain::hit(ray, p);
+    }
+
+    static Vec3<T> geometric_normal(const PlainTriangle& p, const Vec3<T>&) {
+        return normalized(cross(p.b - p.a, p.c - p.a));  // [eq. 47]
+    }
+    static Vec3<T> geometric_normal(const PlainSphere& p, const Vec3<T>& point) {
+        return normalized(point - p.center);
+    }
+    static Vec3<T> geometric_normal(const PlainEllipsoid& p, const Vec3<T>& point) {
+        // The inverse transpose of the linear part, applied to the local normal.
+        const Vec3<T> local = p.local(point - p.center);
+        return normalized(p.inverse[0] * local.x + p.inverse[1] * local.y + p.inverse[2] * local.z);
+    }
+
+    // A ray that starts on the primitive: a triangle is not met again, a sphere at -2 (f.d) /
+    // (d.d).
+    static T other_root(const RayT<T>&, const PlainTriangle&) { return kInfinity; }
+    static T other_root(const RayT<T>& ray, const PlainSphere& p) {
+        return other_root(ray.origin - p.center, ray.direction);
+    }
+    static T other_root(const RayT<T>& ray, const PlainEllipsoid& p) {
+        return other_root(p.local(ray.origin - p.center), p.local(ray.direction));
+    }
+    static T other_root(const Vec3<T>& f, const Vec3<T>& d) {
+        const T t = -2 * dot(f, d) / dot(d, d);
+        return t > 0 ? t : kInfinity;
+    }
+
+    PrimitiveStore<PlainTriangle, PlainSphere, PlainEllipsoid> store_;
+    std::optional<double> bias_;
+};
+
+}  // namespace nuvo
