@@ -1,0 +1,94 @@
+#pragma once
+
+#include <cmath>
+#include <optional>
+
+#include "nuvo/geometry/ellipsoid.h"
+#include "nuvo/math/ray.h"
+
+/// The thesis' tests as they stand: one rounding after another, no bounds. T is float (the thesis)
+/// or double.
+namespace nuvo::plain {
+
+template <typename T>
+struct Hit {
+    T t;
+    Vec2<T> uv;  ///< triangle: weights of b and c; else 0
+};
+
+/// Moeller and Trumbore, both sides. [thesis 4.2.4]
+template <typename T>
+std::optional<Hit<T>> hit(const RayT<T>& ray, const Vec3<T>& a, const Vec3<T>& b,
+                          const Vec3<T>& c) {
+    const Vec3<T> e1 = b - a;
+    const Vec3<T> e2 = c - a;
+    const Vec3<T> p = cross(ray.direction, e2);
+    const T determinant = dot(e1, p);
+    if (determinant == 0) return std::nullopt;
+    const T inverse = 1 / determinant;
+    const Vec3<T> s = ray.origin - a;
+    const T u = dot(s, p) * inverse;
+    if (!(u >= 0 && u <= 1)) return std::nullopt;
+    const Vec3<T> q = cross(s, e1);
+    const T v = dot(ray.direction, q) * inverse;
+    if (!(v >= 0 && u + v <= 1)) return std::nullopt;
+    const T t = dot(e2, q) * inverse;
+    if (!(t > 0)) return std::nullopt;
+    return Hit<T>{t, {u, v}};
+}
+
+/// The roots of |f + t d|^2 = R^2, in the order of t, by the quadratic formula. [eq. 22-24]
+template <typename T>
+std::optional<Vec2<T>> roots(const Vec3<T>& f, const Vec3<T>& d, T radius) {
+    const T a = dot(d, d);
+    const T b = dot(d, f);
+    const T c = dot(f, f) - radius * radius;
+    const T discriminant = b * b - a * c;
+    if (!(discriminant >= 0) || a == 0) return std::nullopt;
+    const T root = std::sqrt(discriminant);
+    return Vec2<T>{(-b - root) / a, (-b + root) / a};
+}
+
+template <typename T>
+std::optional<Hit<T>> smallest_positive(const std::optional<Vec2<T>>& roots) {
+    if (!roots || !(roots->y > 0)) return std::nullopt;
+    return Hit<T>{roots->x > 0 ? roots->x : roots->y, {}};
+}
+
+template <typename T>
+std::optional<Hit<T>> hit(const RayT<T>& ray, const Vec3<T>& center, T radius) {
+    return smallest_positive(roots(ray.origin - center, ray.direction, radius));
+}
+
+/// An ellipsoid in its local space: `inverse` undoes Ellipsoid::linear.
+template <typename T>
+struct LocalEllipsoid {
+    Vec3<T> center;
+    Vec3<T> inverse[3];  ///< rows
+    T radius;
+
+    explicit LocalEllipsoid(const Ellipsoid& e)
+        : center(e.center), radius(static_cast<T>(e.radius)) {
+        const Matrix3 adjugate = e.linear.adjugate();
+        const double determinant = e.linear.determinant();
+        for (int i = 0; i < 3; ++i) inverse[i] = Vec3<T>(adjugate.row[i] / determinant);
+    }
+    Vec3<T> local(const Vec3<T>& v) const {
+        return {dot(inverse[0], v), dot(inverse[1], v), dot(inverse[2], v)};
+    }
+};
+
+template <typename T>
+std::optional<Hit<T>> hit(const RayT<T>& ray, const LocalEllipsoid<T>& e) {
+    return smallest_positive(
+        roots(e.local(ray.origin - e.center), e.local(ray.direction), e.radius));
+}
+
+/// Shadow: a hit at 0 < t < end.
+template <typename T, typename... Primitive>
+bool blocks(const RayT<T>& shadow, T end, const Primitive&... primitive) {
+    const std::optional<Hit<T>> found = hit(shadow, primitive...);
+    return found && found->t < end;
+}
+
+}  // namespace nuvo::plain

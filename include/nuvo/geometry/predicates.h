@@ -1,0 +1,238 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <variant>
+
+#include "nuvo/geometry/ellipsoid.h"
+#include "nuvo/geometry/sphere.h"
+#include "nuvo/geometry/triangle_mesh.h"
+#include "nuvo/math/error_bounds.h"
+#include "nuvo/math/ray.h"
+
+/// Filtered exact predicates: what exact arithmetic on the doubles given would answer. The cheap
+/// stage is here; what it does not decide goes to the .cpp files. Bounds are derived in
+/// docs/numerics.md.
+namespace nuvo {
+
+/// Counts how often the cheap stage did not decide.
+struct StageCounts {
+    std::uint64_t wider = 0;  ///< tighter bounds were computed, in double
+    std::uint64_t exact = 0;  ///< exact arithmetic decided
+};
+
+/// origin + t * d, where d = direction + tail exactly; prepared for many tests. All coordinates and
+/// their differences are finite.
+class ExactRay {
+  public:
+    explicit ExactRay(const Ray& ray) : ExactRay(ray.origin, ray.direction, {}) {}
+
+    /// The ray with t = 0 at `from` and t = 1 at `to`, exactly.
+    static ExactRay between(const Point3& from, const Point3& to) {
+        const TwoTerms x = two_diff(to.x, from.x);
+        const TwoTerms y = two_diff(to.y, from.y);
+        const TwoTerms z = two_diff(to.z, from.z);
+        return {from, {x.value, y.value, z.value}, {x.error, y.error, z.error}};
+    }
+
+    const Point3& origin() const { return origin_; }
+    const Vector3& direction() const { return direction_; }
+    const Vector3& tail() const { return tail_; }
+    /// Largest |component| of direction().
+    double norm() const { return norm_; }
+    /// |d|, |d|^2 and its inverse, in double; NaN where a square could leave the range.
+    double length() const { return length_; }
+    double square() const { return square_; }
+    double inverse_square() const { return inverse_square_; }
+
+  private:
+    ExactRay(const Point3& origin, const Vector3& direction, const Vector3& tail)
+        : origin_(origin),
+          direction_(direction),
+          tail_(tail),
+          norm_(max_norm(direction)),
+          square_(dot(direction, direction)) {
+        constexpr double kRange = 0x1p800;  // [numerics: ranges]
+        if (!(square_ > 1 / kRange && square_ < kRange))
+            square_ = std::numeric_limits<double>::quiet_NaN();
+        length_ = std::sqrt(square_);
+        inverse_square_ = 1 / square_;
+    }
+
+    Point3 origin_;
+    Vector3 direction_;
+    Vector3 tail_;
+    double norm_;
+    double square_;
+    double length_;
+    double inverse_square_;
+};
+
+/// A hit's parameter: the true one lies in [low, high], and t within root_tolerance() of it.
+struct Root {
+    double t;
+    double low;
+    double high;
+};
+
+/// Which of the two roots, in the order of t.
+enum class SphereRoot : std::uint8_t { kNear, kFar };
+
+struct SphereHit {
+    Root root;
+    SphereRoot which;
+};
+
+/// A primitive with the root that was hit (for a triangle `which` means nothing).
+struct HitPrimitive {
+    std::variant<const Triangle*, const Sphere*, const Ellipsoid*> primitive;
+    SphereRoot which = SphereRoot::kNear;
+};
+
+/// Where a ray meets a primitive; a function of the two alone.
+struct SurfacePoint {
+    Point3 point;
+    double error;    ///< bounds |point - true point| in each component
+    Vector3 normal;  ///< geometric, unit; outwards, or the side the corners run counterclockwise on
+    Vec2<double> uv;  ///< triangle: weights of b and c [eq. 46], in [0, 1]; else 0
+};
+
+namespace detail {
+
+/// True where exact arithmetic is sure to find no common point of line and triangle, or that there
+/// is exactly one and it lies inside; else unsure.
+enum class LineTest : std::uint8_t { kMisses, kMeets, kUnsure };
+
+/// Largest of |x|, |y|, |z|; unlike max_norm, a NaN may be lost (the products see it).
+inline double largest(const Vector3& v) {
+    const double x = std::fabs(v.x);
+    const double y = std::fabs(v.y);
+    const double z = std::fabs(v.z);
+    const double xy = x > y ? x : y;
+    return xy > z ? xy : z;
+}
+
+/// The error of d . (C x B) where |d| <= d_norm and |B|, |C| <= norm (largest components):
+/// 6 products of 8 roundings each (difference B, difference C, tail of d, 3 products, 2 sums), and
+/// what underflow adds. Not finite where a product could overflow. [numerics: edge bound]
+inline double edge_error_bound(double d_norm, double norm) {
+    constexpr double kHeadroom = 16;  // > 6: no partial sum overflows where this product does not
+    const double scaled = (kHeadroom * norm * norm + kHeadroom * kUnderflow / gamma(8)) * d_norm;
+    return (6 * gamma(9) / kHeadroom) * scaled + 16 * kUnderflow;
+}
+
+inline LineTest line_test(const ExactRay& ray, const Triangle& triangle) {
+    const Vector3 a = triangle.a - ray.origin();
+    const Vector3 b = triangle.b - ray.origin();
+    const Vector3 c = triangle.c - ray.origin();
+    const double u = dot(ray.direction(), cross(c, b));
+    const double v = dot(ray.direction(), cross(a, c));
+    const double w = dot(ray.direction(), cross(b, a));
+    const double an = largest(a);
+    const double bn = largest(b);
+    const double cn = largest(c);
+    const double ab = an > bn ? an : bn;
+    const double error = edge_error_bound(ray.norm(), ab > cn ? ab : cn);
+    const bool positive = u > error || v > error || w > error;
+    const bool negative = u < -error || v < -error || w < -error;
+    if (positive && negative) return LineTest::kMisses;
+    if ((u > error && v > error && w > error) || (u < -error && v < -error && w < -error))
+        return LineTest::kMeets;
+    return LineTest::kUnsure;
+}
+
+/// The magnitudes within which the squares and products of the sphere's stage neither overflow nor
+/// lose more to underflow than their bounds allow. [numerics: ranges]
+inline constexpr double kSmallestSquare = 0x1p-900;
+inline constexpr double kLargestSquare = 0x1p900;
+
+/// Bounds the error of R^2 - |l|^2, l = f - (f.d / d.d) d, by 16 u (|f|^2 + R^2).
+inline double depth_error_bound(double squares) { return gamma(16) * squares; }
+/// Bounds the error of f . d.
+inline double product_error_bound(double f_norm1, double d_length) {
+    return gamma(6) * f_norm1 * d_length;
+}
+/// Bounds the error of |f|^2 - R^2.
+inline double power_error_bound(double squares) { return gamma(7) * squares; }
+
+/// The line surely misses the sphere, or the ray surely starts outside and runs away; and the
+/// origin is surely further than `origin_error` (per component) from the surface.
+inline bool surely_missed(const ExactRay& ray, const Sphere& sphere, double origin_error) {
+    const Vector3 f = ray.origin() - sphere.center;
+    const double b = dot(f, ray.direction());
+    const Vector3 l = f - ray.direction() * (b * ray.inverse_square());
+    const double ff = dot(f, f);
+    const double rr = sphere.radius * sphere.radius;
+    const double squares = ff + rr;
+    if (!(squares > kSmallestSquare && squares < kLargestSquare)) return false;
+    const double norm1 = std::fabs(f.x) + std::fabs(f.y) + std::fabs(f.z);
+    const double band = origin_error * (2 * norm1 + 3 * origin_error) * (1 + gamma(8));
+    if (!(ff - rr > power_error_bound(squares) + band)) return false;
+    return dot(l, l) - rr > depth_error_bound(squares) ||
+           b > product_error_bound(norm1, ray.length());
+}
+
+/// Outside of these the rounding of t itself may be subnormal or overflow.
+inline constexpr double kSmallestRoot = 0x1p-1000;
+inline constexpr double kLargestRoot = 0x1p1000;
+
+std::optional<Root> triangle_hit(const ExactRay&, const Triangle&, LineTest, StageCounts&);
+std::optional<SphereHit> sphere_hit(const ExactRay&, const Sphere&, StageCounts&);
+bool triangle_blocks(const ExactRay&, double end, double origin_error, const Triangle&, LineTest,
+                     StageCounts&);
+bool sphere_blocks(const ExactRay&, double end, double origin_error, const Sphere&,
+                   bool origin_on_it, StageCounts&);
+
+}  // namespace detail
+
+/// The relative error that every Root keeps, also at tangency: 2^-44.
+constexpr double root_tolerance() { return 512 * kUnitRoundoff; }
+
+/// The hit at t > 0. Edges and vertices belong to the triangle; a ray within its plane, and a
+/// triangle without area, are never hit.
+inline std::optional<Root> hit(const ExactRay& ray, const Triangle& triangle, StageCounts& counts) {
+    const detail::LineTest test = detail::line_test(ray, triangle);
+    if (test == detail::LineTest::kMisses) return std::nullopt;
+    return detail::triangle_hit(ray, triangle, test, counts);
+}
+
+/// The smallest root > 0, tangency included. Without radius never hit.
+inline std::optional<SphereHit> hit(const ExactRay& ray, const Sphere& sphere,
+                                    StageCounts& counts) {
+    if (detail::surely_missed(ray, sphere, 0)) return std::nullopt;
+    return detail::sphere_hit(ray, sphere, counts);
+}
+std::optional<SphereHit> hit(const ExactRay& ray, const Ellipsoid& ellipsoid, StageCounts& counts);
+
+/// The exact sign of t_a - t_b for two hits of `ray`.
+int compare_roots(const ExactRay& ray, const HitPrimitive& a, const HitPrimitive& b,
+                  StageCounts& counts);
+
+/// Where the line of `ray` meets the primitive, which hit() has confirmed.
+SurfacePoint surface_point(const ExactRay& ray, const Triangle& triangle);
+SurfacePoint surface_point(const ExactRay& ray, const Sphere& sphere, SphereRoot which);
+SurfacePoint surface_point(const ExactRay& ray, const Ellipsoid& ellipsoid, SphereRoot which);
+
+/// Whether the primitive blocks the way of `shadow` for 0 < t < end (infinity for a direction).
+/// The origin stands for a lit point up to `origin_error` per component (>= 0); a surface that may
+/// pass through the lit point (a triangle's plane; a sphere's or ellipsoid's surface;
+/// `origin_on_it` says that it does) touches it. A touching triangle blocks nothing; a touching
+/// sphere blocks iff its other root -2 b / a lies in the interval. Everything else is decided
+/// exactly.
+inline bool blocks(const ExactRay& shadow, double end, double origin_error,
+                   const Triangle& triangle, StageCounts& counts) {
+    const detail::LineTest test = detail::line_test(shadow, triangle);
+    if (test == detail::LineTest::kMisses) return false;
+    return detail::triangle_blocks(shadow, end, origin_error, triangle, test, counts);
+}
+inline bool blocks(const ExactRay& shadow, double end, double origin_error, const Sphere& sphere,
+                   bool origin_on_it, StageCounts& counts) {
+    if (!origin_on_it && detail::surely_missed(shadow, sphere, origin_error)) return false;
+    return detail::sphere_blocks(shadow, end, origin_error, sphere, origin_on_it, counts);
+}
+bool blocks(const ExactRay& shadow, double end, double origin_error, const Ellipsoid& ellipsoid,
+            bool origin_on_it, StageCounts& counts);
+
+}  // namespace nuvo

@@ -1,0 +1,54 @@
+#pragma once
+
+#include "nuvo/geometry/predicates.h"
+#include "nuvo/math/exact.h"
+
+/// The last stage: the definitions, written in exact arithmetic. Internal to the predicates.
+namespace nuvo::detail {
+
+inline ExactVector exact_direction(const ExactRay& ray) {
+    return ExactVector(ray.direction()) + ExactVector(ray.tail());
+}
+
+/// t = numerator / denominator where the line meets the triangle's plane: n.(a - o) / n.d.
+struct ExactPlaneRoot {
+    ExactVector normal;  ///< n = (b - a) x (c - a)
+    Exact numerator;
+    Exact denominator;
+};
+ExactPlaneRoot exact_plane_root(const ExactRay& ray, const Triangle& triangle);
+
+/// a t^2 + 2 b t + c = |f + t g|^2 - r2, with a >= 0.
+struct ExactQuadratic {
+    ExactVector f;
+    ExactVector g;
+    Exact a;
+    Exact b;
+    Exact c;
+    bool empty;  ///< the surface has no volume
+
+    Exact discriminant() const { return b * b - a * c; }
+};
+/// f = o - centre, g = d.
+ExactQuadratic exact_quadratic(const ExactRay& ray, const Sphere& sphere);
+/// f = adj(M) (o - centre), g = adj(M) d, r2 = (det(M) R)^2.
+ExactQuadratic exact_quadratic(const ExactRay& ray, const Ellipsoid& ellipsoid);
+
+/// What a change of the origin by `origin_error` per component can add to |c|.
+Exact exact_touch_band(const ExactRay& ray, const Sphere& sphere, double origin_error);
+Exact exact_touch_band(const ExactRay& ray, const Ellipsoid& ellipsoid, double origin_error);
+
+std::optional<SphereHit> exact_hit(const ExactQuadratic& q);
+bool exact_blocks(const ExactQuadratic& q, double end, bool touches);
+/// p + t r at the root, to a few roundoffs of p's and r's shares (p - b / a r and sqrt(D) / a r).
+Vec3<WideDouble> at_root(const ExactQuadratic& q, SphereRoot which, const ExactVector& p,
+                         const ExactVector& r);
+/// adj(M)^T v: half the gradient of |adj(M) x|^2 where v = adj(M) x.
+ExactVector exact_gradient(const Ellipsoid& ellipsoid, const ExactVector& v);
+/// Unit vector along v, whose components may be of any magnitude.
+Vector3 unit(const Vec3<WideDouble>& v);
+
+/// The interval of a t that is known within a few roundings.
+Root root_from(const WideDouble& t);
+
+}  // namespace nuvo::detail

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "predicates_exact.h"
+
+/// The double stage for spheres and ellipsoids. Internal to the predicates.
+namespace nuvo::detail {
+
+/// a t^2 + 2 b t + c with error bounds; depth = R^2 - |l|^2 = discriminant / a (Haines' form),
+/// whose sign says whether the line meets the surface. NaN: out of range, decide nothing.
+struct RoundedQuadratic {
+    Vector3 f;  ///< origin seen from the centre
+    Vector3 g;  ///< direction
+    Vector3 l;  ///< f without its part along g
+    double a, a_relative;
+    double length;  ///< |g|
+    double b, b_error;
+    double c, c_error;
+    double depth, depth_error;
+    double f_norm;        ///< |f|
+    double offset_error;  ///< bounds the error of l, also along g
+};
+RoundedQuadratic rounded_quadratic(const ExactRay& ray, const Sphere& sphere);
+RoundedQuadratic rounded_quadratic(const ExactRay& ray, const Ellipsoid& ellipsoid);
+
+enum class Decision : std::uint8_t { kNo, kYes, kUnsure };
+
+/// kYes fills `hit`.
+Decision rounded_hit(const RoundedQuadratic& q, SphereHit& hit);
+/// `band`: what the origin's error can add to |c|; `touches`: known to lie on the surface.
+Decision rounded_blocks(const RoundedQuadratic& q, double end, double band, bool touches);
+
+/// f + t g with its error in 2-norm.
+struct RoundedOffset {
+    Vector3 offset;
+    double error;
+};
+RoundedOffset rounded_offset(const RoundedQuadratic& q, SphereRoot which);
+
+}  // namespace nuvo::detail
