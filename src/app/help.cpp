@@ -46,9 +46,8 @@ std::string help_text() {
             out, flag.help + (flag.standard.empty() ? "" : " [default: " + flag.standard + "]"));
     }
     out +=
-        "\nexit: 0 done, 1 pictures differ (-compare), 2 usage, 3 scene refused, 4 cannot write "
-        "or\n"
-        "out of memory, 130 or 143 interrupted\n";
+        "\nexit: 0 done, 1 pictures differ (-compare), 2 usage, 3 scene refused,\n"
+        "4 cannot write or out of memory, 130 or 143 interrupted\n";
     return out;
 }
 
