@@ -1,0 +1,66 @@
+#pragma once
+
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "nuvo/render/profile.h"
+#include "nuvo/scene/camera.h"
+#include "nuvo/scene/x3d.h"
+
+namespace nuvo::app {
+
+inline constexpr int kMaxSidePixels = 16384;
+inline constexpr int kMaxRepetitions = 1'000'000;
+
+/// What the user typed, checked. Paths are as typed.
+struct Options {
+    std::string file = "testfiles/trianglemesh";  ///< .x3d may be missing
+    int repetitions = 5;
+    Resolution resolution;
+    std::string profile_name = "exact";  ///< the bundle that `profile` started from
+    Profile profile;                     ///< with the single answers put in
+    x3d::Headlight headlight = x3d::Headlight::kAuto;
+    std::optional<std::string> rays;
+    std::optional<std::string> out;
+    std::optional<std::string> json;
+    bool show_octree = false;
+    bool compare = false;
+    bool counters = false;
+    bool quiet = false;
+    bool help = false;
+    bool version = false;
+};
+
+/// A command line that cannot be obeyed: what() is one line that names flag and value.
+class UsageError : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
+/// One row of the table of flags, from which the parser, -h and the documentation are made.
+struct Flag {
+    std::string name;      ///< without dashes
+    std::string spelling;  ///< as the thesis writes it: "--file", "-compare"
+    std::string value;     ///< syntax of the value; empty: a switch
+    std::string standard;  ///< the default as text; empty: none
+    std::string help;
+    /// Puts the value (empty for a switch) into the options. Throws UsageError with the reason
+    /// only.
+    void (*apply)(Options&, const std::string& value);
+};
+
+/// The table, in the order of the help. A flag that others refine stands before them.
+const std::vector<Flag>& flags();
+
+/// Reads the arguments (without the program's name): flags in any order, each at most once, with
+/// one or two dashes. Throws UsageError.
+Options parse(const std::vector<std::string>& arguments);
+
+/// The command list that -h prints.
+std::string help_text();
+/// The same table for the documentation, in Markdown.
+std::string help_markdown();
+
+}  // namespace nuvo::app

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "nuvo/app/clocks.h"
+#include "nuvo/app/options.h"
+#include "nuvo/image/compare.h"
+#include "nuvo/octree/octree.h"
+#include "nuvo/render/render.h"
+#include "nuvo/scene/scene.h"
+
+namespace nuvo::app {
+
+/// What a scene holds.
+struct SceneCounts {
+    std::size_t shapes = 0;     ///< Shapes met in the file, drawn or not
+    std::size_t objects = 0;    ///< drawn
+    std::size_t triangles = 0;  ///< with those of zero area
+    std::size_t spheres = 0;    ///< ellipsoids included
+    std::size_t lights = 0;     ///< headlight included
+    std::size_t warnings = 0;
+};
+SceneCounts count(const Scene& scene);
+
+/// An octree in figures.
+struct TreeFigures {
+    int depth = 0;
+    std::size_t voxels = 0;  ///< leaves, as the thesis counts
+    std::size_t nodes = 0;
+    std::size_t references = 0;
+    std::size_t memory_bytes = 0;
+    double smallest_width = 0;
+};
+TreeFigures figures(const Octree& octree);
+
+/// One way of rendering the scene: its tree, its counts and every time taken.
+struct Pass {
+    std::string name;  ///< "uniform", "nonuniform" or "brute force"
+    std::optional<TreeFigures> tree;
+    std::optional<TraceCounts> counts;
+    std::vector<double> build_seconds;  ///< one a repetition
+    std::vector<double> trace_seconds;
+    ProcessTimes process;  ///< around all repetitions
+};
+
+/// Two passes of -compare.
+struct Pair {
+    std::string first;
+    std::string second;
+    image::Difference difference;
+};
+
+/// All that a run has to tell.
+struct Report {
+    std::string file;
+    std::string picture;     ///< empty: none was written
+    std::string difference;  ///< the difference picture; empty: none was written
+    SceneCounts scene;
+    double parse_seconds = 0;
+    double write_seconds = 0;
+    std::vector<Pass> passes;
+    std::vector<Pair> pairs;
+    std::optional<std::size_t> rays;  ///< queries answered
+    std::optional<std::size_t> hits;
+};
+
+/// Every answer of a profile as the flags that give it.
+std::string profile_flags_text(const Options& options);
+/// The report for people, some lines.
+std::string report_text(const Options& options, const Report& report);
+/// The report for programs: JSON, numbers finite or null.
+std::string report_json(const Options& options, const Report& report);
+
+}  // namespace nuvo::app

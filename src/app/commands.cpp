@@ -1,0 +1,263 @@
+#include "nuvo/app/commands.h"
+
+#include <algorithm>
+#include <iostream>
+#include <system_error>
+#include <tuple>
+
+#include "nuvo/app/choices.h"
+#include "nuvo/app/rays.h"
+#include "nuvo/app/report.h"
+#include "nuvo/image/bmp.h"
+#include "nuvo/image/file_writer.h"
+
+namespace nuvo::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct LoadedScene {
+    fs::path path;
+    Scene scene;
+    double parse_seconds = 0;
+};
+
+LoadedScene load(const Options& options) {
+    LoadedScene loaded;
+    loaded.path = find_scene(options.file);
+    const StageStopwatch watch;
+    loaded.scene = x3d::read_file(loaded.path, options.headlight);
+    loaded.parse_seconds = watch.seconds();
+    for (const std::string& warning : loaded.scene.warnings)
+        std::cerr << "nuvo: warning: " << warning << '\n';
+    return loaded;
+}
+
+bool is_regular(const fs::path& path) {
+    std::error_code ignored;
+    return fs::is_regular_file(path, ignored);
+}
+
+bool is_same_file(const fs::path& a, const fs::path& b) {
+    std::error_code error;
+    if (fs::equivalent(a, b, error) && !error) return is_regular(a);
+    return a.lexically_normal() == b.lexically_normal() && !fs::exists(a, error);
+}
+
+/// Finds out now what would stop an output after a long render, or destroy an input.
+void check_outputs(const std::vector<fs::path>& inputs, const std::vector<fs::path>& outputs) {
+    for (std::size_t i = 0; i < outputs.size(); ++i) {
+        for (const fs::path& input : inputs)
+            if (is_same_file(input, outputs[i]))
+                throw UsageError(outputs[i].string() + ": would be overwritten, but it is read");
+        for (std::size_t j = 0; j < i; ++j)
+            if (is_same_file(outputs[j], outputs[i]))
+                throw UsageError(outputs[i].string() + ": would be written twice");
+        image::check_writable(outputs[i]);
+    }
+}
+
+std::vector<fs::path> with_json(std::vector<fs::path> outputs, const Options& options) {
+    if (options.json) outputs.emplace_back(*options.json);
+    return outputs;
+}
+
+void print_report(const Options& options, const Report& report) {
+    if (!options.quiet) std::cout << report_text(options, report);
+}
+
+void write_json(const Options& options, const Report& report) {
+    if (options.json) image::write_file_atomically(*options.json, report_json(options, report));
+}
+
+/// Builds and traces; the last picture stays in `picture`. [thesis 5.7.1]
+Pass run_pass(const Scene& scene, const Options& options, const Profile& profile, int repetitions,
+              Image& picture) {
+    Pass pass;
+    pass.name = name_of(kOctreeTypes, profile.type);
+    Primitives primitives;
+    Octree octree;
+    const ProcessStopwatch process;
+    for (int i = 0; i < repetitions; ++i) {
+        const StageStopwatch build;
+        primitives = flatten(scene, profile.leaves);
+        octree = build_tree(scene, primitives, profile);
+        pass.build_seconds.push_back(build.seconds());
+        picture = Image();  // two pictures need not be held at once
+        const StageStopwatch trace;
+        picture = render(scene, primitives, octree, profile, options.resolution);
+        pass.trace_seconds.push_back(trace.seconds());
+    }
+    pass.process = process.elapsed();
+    pass.tree = figures(octree);
+    if (options.counters || options.json)
+        pass.counts = count_events(scene, primitives, octree, profile, options.resolution);
+    return pass;
+}
+
+Pass run_brute_force(const Scene& scene, const Options& options, Image& picture) {
+    Pass pass;
+    pass.name = "brute force";
+    const Primitives primitives = flatten(scene, options.profile.leaves);
+    const ProcessStopwatch process;
+    const StageStopwatch trace;
+    picture = render_brute_force(scene, primitives, options.profile, options.resolution);
+    pass.trace_seconds.push_back(trace.seconds());
+    pass.process = process.elapsed();
+    return pass;
+}
+
+void show_octree(const Scene& scene, const Profile& profile) {
+    std::cout << name_of(kOctreeTypes, profile.type) << " octree\n";
+    print(std::cout, build_tree(scene, flatten(scene, profile.leaves), profile));
+}
+
+Profile with_type(Profile profile, OctreeType type) {
+    profile.type = type;
+    return profile;
+}
+
+Report begin_report(const LoadedScene& loaded) {
+    Report report;
+    report.file = loaded.path.string();
+    report.scene = count(loaded.scene);
+    report.parse_seconds = loaded.parse_seconds;
+    return report;
+}
+
+fs::path chosen_picture(const Options& options, const LoadedScene& loaded) {
+    return options.out ? fs::path(*options.out) : picture_beside(loaded.path);
+}
+
+bool is_further_apart(const image::Difference& a, const image::Difference& b) {
+    return std::tie(a.max_difference, a.differing_pixels) >
+           std::tie(b.max_difference, b.differing_pixels);
+}
+
+}  // namespace
+
+ExitCode render_command(const Options& options) {
+    const LoadedScene loaded = load(options);
+    const fs::path picture_path = chosen_picture(options, loaded);
+    check_outputs({loaded.path}, with_json({picture_path}, options));
+    if (options.show_octree) show_octree(loaded.scene, options.profile);
+
+    Report report = begin_report(loaded);
+    Image picture;
+    report.passes.push_back(
+        run_pass(loaded.scene, options, options.profile, options.repetitions, picture));
+    const StageStopwatch write;
+    image::write_bmp(picture_path, picture);
+    report.write_seconds = write.seconds();
+    report.picture = picture_path.string();
+    write_json(options, report);
+    print_report(options, report);
+    return kDone;
+}
+
+ExitCode compare_command(const Options& options) {
+    const LoadedScene loaded = load(options);
+    const fs::path picture_path = chosen_picture(options, loaded);
+    const fs::path difference_path = difference_beside(picture_path);
+    check_outputs({loaded.path}, with_json({picture_path, difference_path}, options));
+
+    Report report = begin_report(loaded);
+    std::vector<Image> pictures;
+    for (const auto& type : kOctreeTypes) {
+        const Profile profile = with_type(options.profile, type.value);
+        if (options.show_octree) show_octree(loaded.scene, profile);
+        report.passes.push_back(
+            run_pass(loaded.scene, options, profile, 1, pictures.emplace_back()));
+    }
+    report.passes.push_back(run_brute_force(loaded.scene, options, pictures.emplace_back()));
+
+    std::size_t far_first = 0, far_second = 1;
+    image::Difference furthest;
+    for (std::size_t i = 0; i < pictures.size(); ++i) {
+        for (std::size_t j = i + 1; j < pictures.size(); ++j) {
+            const image::Difference difference = image::compare(pictures[i], pictures[j]);
+            report.pairs.push_back({report.passes[i].name, report.passes[j].name, difference});
+            if (!is_further_apart(difference, furthest)) continue;
+            furthest = difference;
+            far_first = i;
+            far_second = j;
+        }
+    }
+    const StageStopwatch write;
+    image::write_bmp(picture_path, pictures[0]);
+    image::write_bmp(difference_path,
+                     image::difference_picture(pictures[far_first], pictures[far_second]));
+    report.write_seconds = write.seconds();
+    report.picture = picture_path.string();
+    report.difference = difference_path.string();
+    write_json(options, report);
+    print_report(options, report);
+    return furthest.equal() ? kDone : kPicturesDiffer;
+}
+
+ExitCode rays_command(const Options& options) {
+    const LoadedScene loaded = load(options);
+    const std::vector<Ray> rays = read_rays(*options.rays);
+    std::vector<fs::path> outputs;
+    if (options.out) outputs.emplace_back(*options.out);
+    check_outputs({loaded.path, *options.rays}, with_json(outputs, options));
+
+    Report report = begin_report(loaded);
+    Pass pass;
+    pass.name = name_of(kOctreeTypes, options.profile.type);
+    const ProcessStopwatch process;
+    const StageStopwatch build;
+    const Primitives primitives = flatten(loaded.scene, options.profile.leaves);
+    const Octree octree = build_tree(loaded.scene, primitives, options.profile);
+    pass.build_seconds.push_back(build.seconds());
+    const StageStopwatch trace;
+    const std::vector<RayAnswer> answers =
+        closest_hits(loaded.scene, primitives, &octree, options.profile, rays);
+    pass.trace_seconds.push_back(trace.seconds());
+    pass.process = process.elapsed();
+    pass.tree = figures(octree);
+    report.passes.push_back(std::move(pass));
+    report.rays = rays.size();
+    report.hits = static_cast<std::size_t>(
+        std::count_if(answers.begin(), answers.end(), [](const RayAnswer& a) { return a.hit; }));
+
+    const std::string text = answers_text(answers);
+    const StageStopwatch write;
+    if (options.out) {
+        image::write_file_atomically(*options.out, text);
+        report.picture = *options.out;
+    } else {
+        std::cout << text;
+    }
+    report.write_seconds = write.seconds();
+    write_json(options, report);
+    if (options.out) print_report(options, report);  // else the answers have standard output
+    return kDone;
+}
+
+fs::path find_scene(const std::string& name) {
+    std::error_code ignored;
+    const fs::path given = name;
+    if (fs::exists(given, ignored) && !fs::is_directory(given, ignored)) return given;
+    fs::path with_ending = given;
+    with_ending += ".x3d";
+    if (fs::exists(with_ending, ignored)) return with_ending;
+    if (fs::is_directory(given, ignored)) throw x3d::Error(name + ": file: is a folder");
+    throw x3d::Error(name + ": file: not found, with or without .x3d");
+}
+
+fs::path picture_beside(const fs::path& scene) {
+    fs::path picture = scene;
+    if (picture.extension() == ".x3d") picture.replace_extension();
+    return picture += ".bmp";
+}
+
+fs::path difference_beside(const fs::path& picture) {
+    std::error_code ignored;
+    if (fs::exists(picture, ignored) && !is_regular(picture)) return picture;
+    fs::path name = picture.stem();
+    name += "-difference.bmp";
+    return picture.parent_path() / name;
+}
+
+}  // namespace nuvo::app

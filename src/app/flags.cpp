@@ -1,0 +1,209 @@
+#include <charconv>
+#include <cmath>
+#include <string>
+#include <system_error>
+
+#include "nuvo/app/choices.h"
+#include "nuvo/app/options.h"
+
+namespace nuvo::app {
+namespace {
+
+template <typename E, std::size_t N>
+E parse_choice(const std::array<Choice<E>, N>& choices, std::string_view value) {
+    for (const Choice<E>& choice : choices)
+        if (choice.name == value) return choice.value;
+    throw UsageError("must be " + joined_names(choices));
+}
+
+/// An integer that fills the whole text and lies in [low, high]; else UsageError(demand).
+template <typename T>
+T parse_integer(std::string_view text, T low, T high, const std::string& demand) {
+    T value{};
+    const char* const end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, value);
+    if (error != std::errc() || stop != end || value < low || value > high)
+        throw UsageError(demand);
+    return value;
+}
+
+/// A finite number that fills the whole text and is above `low` (or equal, where `or_equal`).
+double parse_number(std::string_view text, double low, bool or_equal, const std::string& demand) {
+    double value = 0;
+    const char* const end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, value);
+    const bool is_in_range = or_equal ? value >= low : value > low;
+    if (error != std::errc() || stop != end || !std::isfinite(value) || !is_in_range)
+        throw UsageError(demand);
+    return value;
+}
+
+std::string non_empty(const std::string& value, const std::string& what) {
+    if (value.empty()) throw UsageError("needs " + what);
+    return value;
+}
+
+void apply_resolution(Options& options, const std::string& value) {
+    const std::string demand = "must be W,H, each side 1 to " + std::to_string(kMaxSidePixels) +
+                               " pixels (limit " + std::to_string(kMaxSidePixels) + ")";
+    const std::size_t comma = value.find(',');
+    if (comma == std::string::npos) throw UsageError(demand);
+    const std::string_view text = value;
+    options.resolution = {parse_integer(text.substr(0, comma), 1, kMaxSidePixels, demand),
+                          parse_integer(text.substr(comma + 1), 1, kMaxSidePixels, demand)};
+}
+
+void apply_repetitions(Options& options, const std::string& value) {
+    const std::string limit = std::to_string(kMaxRepetitions);
+    options.repetitions =
+        parse_integer(value, 1, kMaxRepetitions,
+                      "must be a whole number 1 to " + limit + " (limit " + limit + ")");
+}
+
+void apply_profile(Options& options, const std::string& value) {
+    // --type comes earlier in the table and belongs to the user whatever the profile.
+    const OctreeType type = options.profile.type;
+    if (value == "exact") {
+        options.profile = exact_profile();
+    } else if (value == "thesis") {
+        options.profile = thesis_profile();
+    } else {
+        throw UsageError("must be exact|thesis");
+    }
+    options.profile.type = type;
+    options.profile_name = value;
+}
+
+void apply_costs(Options& options, const std::string& value) {
+    const std::string demand = "must be thesis, thesis:K with a weight K > 0, or calibrated";
+    const std::size_t colon = value.find(':');
+    if (colon != std::string::npos) {
+        if (value.compare(0, colon, "thesis") != 0) throw UsageError(demand);
+        options.profile.thesis_weight = parse_number(value.substr(colon + 1), 0, false, demand);
+        options.profile.costs = CostChoice::kThesis;
+        return;
+    }
+    for (const auto& choice : kCosts) {
+        if (choice.name != value) continue;
+        options.profile.costs = choice.value;
+        return;
+    }
+    throw UsageError(demand);
+}
+
+void apply_max_objects(Options& options, const std::string& value) {
+    constexpr std::size_t kMost = 1'000'000'000;
+    options.profile.max_objects =
+        parse_integer(value, std::size_t{1}, kMost, "must be a whole number 1 to 1000000000");
+}
+
+void apply_step(Options& options, const std::string& value) {
+    options.profile.step.reset();
+    if (value != "exact")
+        options.profile.step = parse_number(value, 0, false, "must be exact or a number > 0");
+}
+
+void apply_bias(Options& options, const std::string& value) {
+    options.profile.bias.reset();
+    if (value != "exact")
+        options.profile.bias = parse_number(value, 0, true, "must be exact or a number >= 0");
+}
+
+std::vector<Flag> thesis_flags() {
+    const std::string standard_resolution =
+        std::to_string(Resolution().width) + "," + std::to_string(Resolution().height);
+    return {
+        {"file", "--file", "PATH", Options().file, "the X3D scene; .x3d may be left out",
+         [](Options& o, const std::string& v) { o.file = non_empty(v, "a file name"); }},
+        {"rep", "--rep", "N", std::to_string(Options().repetitions),
+         "build and trace N times and print the average; 1 to " + std::to_string(kMaxRepetitions),
+         apply_repetitions},
+        {"res", "--res", "W,H", standard_resolution,
+         "size of the picture, each side 1 to " + std::to_string(kMaxSidePixels) + " pixels",
+         apply_resolution},
+        {"type", "--type", joined_names(kOctreeTypes), "uniform", "the octree",
+         [](Options& o, const std::string& v) { o.profile.type = parse_choice(kOctreeTypes, v); }},
+        {"showoctree", "-showoctree", "", "", "print the octree as text first (extremely verbose)",
+         [](Options& o, const std::string&) { o.show_octree = true; }},
+        {"compare", "-compare", "", "",
+         "render once each with the uniform octree, the non-uniform one and by brute force; print "
+         "how far the pictures are apart and write the difference picture",
+         [](Options& o, const std::string&) { o.compare = true; }},
+        {"help", "-h, --help", "", "", "print this list",
+         [](Options& o, const std::string&) { o.help = true; }},
+    };
+}
+
+std::vector<Flag> profile_flags() {
+    return {
+        {"profile", "--profile", "exact|thesis", "exact",
+         "a bundle of the answers below: right numbers, or the published program", apply_profile},
+        {"midpoint", "--midpoint", joined_names(kMidpoints), "mlsl-sbplx",
+         "where a non-uniform voxel is cut",
+         [](Options& o, const std::string& v) {
+             o.profile.midpoint = parse_choice(kMidpoints, v);
+         }},
+        {"costs", "--costs", "thesis[:K]|calibrated", "by profile",
+         "when a cut pays; K: what a mesh of 8 triangles counts as (8)", apply_costs},
+        {"max-objects", "--max-objects", "N", "",
+         "cut until a voxel holds at most N, whatever it costs", apply_max_objects},
+        {"leaves", "--leaves", joined_names(kLeafContents), "by profile",
+         "what voxels hold: whole shapes, or spheres and single triangles",
+         [](Options& o, const std::string& v) {
+             o.profile.leaves = parse_choice(kLeafContents, v);
+         }},
+        {"walk", "--walk", joined_names(kWalks), "by profile",
+         "how the next voxel is found: by its name, or down from the root",
+         [](Options& o, const std::string& v) { o.profile.walk = parse_choice(kWalks, v); }},
+        {"step", "--step", "exact|K", "by profile",
+         "how a ray enters the next voxel: at the face itself, or K smallest widths past it",
+         apply_step},
+        {"precision", "--precision", joined_names(kPrecisions), "by profile",
+         "arithmetic of the intersection tests",
+         [](Options& o, const std::string& v) {
+             o.profile.precision = parse_choice(kPrecisions, v);
+         }},
+        {"bias", "--bias", "exact|B", "by profile",
+         "where shadow rays start: on the surface itself, or B along its normal", apply_bias},
+    };
+}
+
+std::vector<Flag> output_flags() {
+    return {
+        {"rays", "--rays", "FILE", "",
+         "answer the rays of FILE (a line each: ox oy oz dx dy dz) and draw nothing",
+         [](Options& o, const std::string& v) { o.rays = non_empty(v, "a file name"); }},
+        {"out", "--out", "FILE", "",
+         "the picture (default: beside the scene), or the rays' answers",
+         [](Options& o, const std::string& v) { o.out = non_empty(v, "a file name"); }},
+        {"json", "--json", "FILE", "", "write counts and every raw time to FILE",
+         [](Options& o, const std::string& v) { o.json = non_empty(v, "a file name"); }},
+        {"headlight", "--headlight", joined_names(kHeadlights), "auto",
+         "a light at the camera; auto: as the file says, or where it has no light",
+         [](Options& o, const std::string& v) { o.headlight = parse_choice(kHeadlights, v); }},
+        {"counters", "--counters", "", "",
+         "count intersection tests and voxel searches in an extra pass that is not timed (--json "
+         "does, too)",
+         [](Options& o, const std::string&) { o.counters = true; }},
+        {"quiet", "--quiet", "", "", "no report on standard output",
+         [](Options& o, const std::string&) { o.quiet = true; }},
+        {"version", "--version", "", "", "print the version",
+         [](Options& o, const std::string&) { o.version = true; }},
+    };
+}
+
+std::vector<Flag> make_flags() {
+    std::vector<Flag> all = thesis_flags();
+    for (const auto& part : {profile_flags(), output_flags()})
+        all.insert(all.end(), part.begin(), part.end());
+    return all;
+}
+
+}  // namespace
+
+const std::vector<Flag>& flags() {
+    static const std::vector<Flag> table = make_flags();
+    return table;
+}
+
+}  // namespace nuvo::app

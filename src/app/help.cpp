@@ -1,0 +1,63 @@
+#include <sstream>
+
+#include "nuvo/app/options.h"
+
+namespace nuvo::app {
+namespace {
+
+constexpr std::size_t kTextColumn = 4;
+constexpr std::size_t kLastColumn = 80;
+
+std::string syntax(const Flag& flag) {
+    return flag.value.empty() ? flag.spelling : flag.spelling + "=" + flag.value;
+}
+
+void append_wrapped(std::string& out, const std::string& text) {
+    std::istringstream words(text);
+    std::string word;
+    std::size_t column = 0;
+    while (words >> word) {
+        if (column != 0 && column + 1 + word.size() > kLastColumn) {
+            out += '\n';
+            column = 0;
+        }
+        out += column == 0 ? std::string(kTextColumn, ' ') : " ";
+        out += word;
+        column += word.size() + (column == 0 ? kTextColumn : 1);
+    }
+    out += '\n';
+}
+
+std::string in_table_cell(const std::string& text) {
+    std::string cell;
+    for (const char c : text) cell += c == '|' ? std::string("\\|") : std::string(1, c);
+    return cell;
+}
+
+}  // namespace
+
+std::string help_text() {
+    std::string out =
+        "nuvo: ray tracing through uniform and non-uniform octrees\n"
+        "usage: nuvo [flag]...\n\n";
+    for (const Flag& flag : flags()) {
+        out += "  " + syntax(flag) + "\n";
+        append_wrapped(
+            out, flag.help + (flag.standard.empty() ? "" : " [default: " + flag.standard + "]"));
+    }
+    out +=
+        "\nexit: 0 done, 1 pictures differ (-compare), 2 usage, 3 scene refused,\n"
+        "4 cannot write or out of memory, 130 or 143 interrupted\n";
+    return out;
+}
+
+std::string help_markdown() {
+    std::string out = "| flag | default | meaning |\n|---|---|---|\n";
+    for (const Flag& flag : flags())
+        out += "| `" + in_table_cell(syntax(flag)) + "` | " +
+               (flag.standard.empty() ? "" : "`" + in_table_cell(flag.standard) + "`") + " | " +
+               in_table_cell(flag.help) + " |\n";
+    return out;
+}
+
+}  // namespace nuvo::app

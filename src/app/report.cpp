@@ -1,0 +1,171 @@
+#include "nuvo/app/report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+#include <numeric>
+
+#include "nuvo/app/choices.h"
+
+namespace nuvo::app {
+namespace {
+
+__attribute__((format(printf, 1, 2))) std::string format(const char* pattern, ...) {
+    va_list arguments, again;
+    va_start(arguments, pattern);
+    va_copy(again, arguments);
+    const int size = std::vsnprintf(nullptr, 0, pattern, arguments);
+    va_end(arguments);
+    std::string text(static_cast<std::size_t>(std::max(size, 0)), '\0');
+    std::vsnprintf(text.data(), text.size() + 1, pattern, again);
+    va_end(again);
+    return text;
+}
+
+std::string counted(std::size_t n, const char* noun) {
+    return std::to_string(n) + " " + noun + (n == 1 ? "" : "s");
+}
+
+double mean(const std::vector<double>& values) {
+    if (values.empty()) return 0;
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+std::string bytes_text(std::size_t bytes) {
+    constexpr double kMegabyte = 1e6;
+    return format("%.1f MB", static_cast<double>(bytes) / kMegabyte);
+}
+
+std::string time_line(const char* name, const std::vector<double>& seconds) {
+    std::string line = format("%-10s %.6f s", name, mean(seconds));
+    if (seconds.size() > 1) {
+        const auto [least, most] = std::minmax_element(seconds.begin(), seconds.end());
+        line += format(" (mean of %zu, %.6f to %.6f)", seconds.size(), *least, *most);
+    }
+    return line + "\n";
+}
+
+std::string tree_line(const Pass& pass) {
+    const TreeFigures& tree = *pass.tree;
+    return format("%-10s %s: depth %d, %s, %s, %s, %s\n", "octree", pass.name.c_str(), tree.depth,
+                  counted(tree.voxels, "voxel").c_str(), counted(tree.nodes, "node").c_str(),
+                  counted(tree.references, "reference").c_str(),
+                  bytes_text(tree.memory_bytes).c_str());
+}
+
+std::string counts_line(const TraceCounts& counts) {
+    const double rays = std::max(1.0, static_cast<double>(counts.primary_rays));
+    const auto a_ray = [rays](std::uint64_t n) { return static_cast<double>(n) / rays; };
+    return format(
+        "%-10s %llu primary and %llu shadow rays; %llu intersection tests (%.2f a primary ray), "
+        "%llu voxel searches (%.2f)\n",
+        "counts", static_cast<unsigned long long>(counts.primary_rays),
+        static_cast<unsigned long long>(counts.shadow_rays),
+        static_cast<unsigned long long>(counts.intersection_tests),
+        a_ray(counts.intersection_tests), static_cast<unsigned long long>(counts.voxel_searches),
+        a_ray(counts.voxel_searches));
+}
+
+std::string average_line(const Pass& pass) {
+    const auto repetitions =
+        static_cast<double>(std::max<std::size_t>(1, pass.trace_seconds.size()));
+    const ProcessTimes& all = pass.process;
+    std::string line = format(
+        "%-10s %.6f s to build and trace once (user processor time over %s; in all user "
+        "%.2f, system %.2f, wall %.2f s)\n",
+        "average", all.user_seconds / repetitions,
+        counted(pass.trace_seconds.size(), "repetition").c_str(), all.user_seconds,
+        all.system_seconds, all.wall_seconds);
+    constexpr double kShortSeconds = 1;
+    if (all.user_seconds < kShortSeconds)
+        line += format(
+            "%-10s under %.0f s in all and this clock steps by %.0f ms: rather read "
+            "build and trace\n",
+            "", kShortSeconds, kUserClockStepSeconds * 1000);
+    return line;
+}
+
+std::string pair_line(const Pair& pair) {
+    const image::Difference& d = pair.difference;
+    const std::string names = pair.first + " / " + pair.second;
+    if (d.equal())
+        return format("%-25s 0 differing pixels, maximum difference 0, RMS 0, PSNR inf dB\n",
+                      names.c_str());
+    return format("%-25s %s, maximum difference %d at pixel %d,%d, RMS %.6g, PSNR %.2f dB\n",
+                  names.c_str(), counted(d.differing_pixels, "differing pixel").c_str(),
+                  d.max_difference, d.x, d.y, d.rms, d.psnr_db);
+}
+
+}  // namespace
+
+SceneCounts count(const Scene& scene) {
+    SceneCounts counts;
+    counts.shapes = scene.shape_count;
+    counts.objects = scene.objects.size();
+    counts.lights = scene.lights.size();
+    counts.warnings = scene.warnings.size();
+    for (const Object& object : scene.objects) {
+        if (const auto* mesh = std::get_if<TriangleMesh>(&object.shape)) {
+            counts.triangles += mesh->triangles.size();
+        } else {
+            ++counts.spheres;
+        }
+    }
+    return counts;
+}
+
+TreeFigures figures(const Octree& octree) {
+    return {octree.depth(),           octree.leaf_count(),   octree.nodes().size(),
+            octree.reference_count(), octree.memory_bytes(), octree.smallest_width()};
+}
+
+std::string profile_flags_text(const Options& options) {
+    const Profile& profile = options.profile;
+    std::string text = "--profile=" + options.profile_name;
+    if (!options.compare) text += " --type=" + std::string(name_of(kOctreeTypes, profile.type));
+    if (options.compare || profile.type == OctreeType::kNonuniform)
+        text += " --midpoint=" + std::string(name_of(kMidpoints, profile.midpoint));
+    if (profile.max_objects) {
+        text += format(" --max-objects=%zu", *profile.max_objects);
+    } else {
+        text += " --costs=" + std::string(name_of(kCosts, profile.costs));
+        if (profile.costs == CostChoice::kThesis) text += format(":%g", profile.thesis_weight);
+    }
+    text += " --leaves=" + std::string(name_of(kLeafContents, profile.leaves));
+    text += " --walk=" + std::string(name_of(kWalks, profile.walk));
+    text += profile.step ? format(" --step=%g", *profile.step) : " --step=exact";
+    text += " --precision=" + std::string(name_of(kPrecisions, profile.precision));
+    text += profile.bias ? format(" --bias=%g", *profile.bias) : " --bias=exact";
+    return text;
+}
+
+std::string report_text(const Options& options, const Report& report) {
+    const SceneCounts& scene = report.scene;
+    std::string text =
+        format("%-10s %s: %s, %s, %s, %s\n", "scene", report.file.c_str(),
+               counted(scene.shapes, "shape").c_str(), counted(scene.triangles, "triangle").c_str(),
+               counted(scene.spheres, "sphere").c_str(), counted(scene.lights, "light").c_str());
+    text += format("%-10s %s\n", "profile", profile_flags_text(options).c_str());
+    if (!report.rays)
+        text += format("%-10s %d x %d\n", "pixels", options.resolution.width,
+                       options.resolution.height);
+    for (const Pass& pass : report.passes) {
+        text +=
+            pass.tree ? tree_line(pass) : format("%-10s none: %s\n", "octree", pass.name.c_str());
+        if (pass.counts) text += counts_line(*pass.counts);
+        if (pass.tree) text += time_line("build", pass.build_seconds);
+        text += time_line("trace", pass.trace_seconds);
+        if (!options.compare && !report.rays) text += average_line(pass);
+    }
+    for (const Pair& pair : report.pairs) text += pair_line(pair);
+    if (report.rays)
+        text += format("%-10s %zu, %zu of them hit\n", "rays", *report.rays, *report.hits);
+    if (!report.picture.empty())
+        text += format("%-10s %s\n", report.rays ? "answers" : "picture", report.picture.c_str());
+    if (!report.difference.empty())
+        text += format("%-10s %s\n", "difference", report.difference.c_str());
+    return text;
+}
+
+}  // namespace nuvo::app

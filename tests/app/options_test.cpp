@@ -1,0 +1,281 @@
+#include "nuvo/app/options.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <random>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace nuvo::app {
+namespace {
+
+std::string usage_error(const std::vector<std::string>& arguments) {
+    try {
+        parse(arguments);
+    } catch (const UsageError& error) {
+        return error.what();
+    }
+    return {};
+}
+
+bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+std::string text_of(const std::string& name) {
+    std::ifstream file(std::string(NUVO_SOURCE_DIR) + "/" + name);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// Thesis appendix C: ./main --file=testfiles/trianglemesh --rep=5 --type=uniform --res=1920,1080
+TEST(Options, DefaultsAreTheThesis) {
+    const Options options = parse({});
+    EXPECT_EQ(options.file, "testfiles/trianglemesh");
+    EXPECT_EQ(options.repetitions, 5);
+    EXPECT_EQ(options.profile.type, OctreeType::kUniform);
+    EXPECT_EQ(options.resolution, (Resolution{1920, 1080}));
+    EXPECT_EQ(options.profile_name, "exact");
+    EXPECT_FALSE(options.compare || options.show_octree || options.help || options.quiet);
+    EXPECT_FALSE(options.out || options.rays || options.json);
+}
+
+TEST(Options, ThesisFlagsAreReadInAnyOrder) {
+    std::vector<std::string> arguments{"--file=a b",        "--rep=15",    "--res=840,350",
+                                       "--type=nonuniform", "-showoctree", "--midpoint=sweep"};
+    const unsigned seed = std::random_device{}();
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::mt19937 random(seed);
+    for (int i = 0; i < 50; ++i) {
+        std::shuffle(arguments.begin(), arguments.end(), random);
+        const Options options = parse(arguments);
+        EXPECT_EQ(options.file, "a b");
+        EXPECT_EQ(options.repetitions, 15);
+        EXPECT_EQ(options.resolution, (Resolution{840, 350}));
+        EXPECT_EQ(options.profile.type, OctreeType::kNonuniform);
+        EXPECT_EQ(options.profile.midpoint, MidpointChoice::kSweep);
+        EXPECT_TRUE(options.show_octree);
+    }
+}
+
+TEST(Options, OneDashOrTwoAndABlankForTheEqualSignWork) {
+    const Options options =
+        parse({"-file=a", "--compare", "--showoctree", "--rep", "3", "-res", "4,5"});
+    EXPECT_EQ(options.file, "a");
+    EXPECT_EQ(options.repetitions, 3);
+    EXPECT_EQ(options.resolution, (Resolution{4, 5}));
+    EXPECT_TRUE(options.compare && options.show_octree);
+}
+
+TEST(Options, HelpWinsHoweverItIsSpelled) {
+    for (const char* help : {"-h", "--help", "-help"}) {
+        EXPECT_TRUE(parse({help}).help) << help;
+        EXPECT_TRUE(parse({"--file=a", "--rep=5", "-compare", help}).help) << help;
+    }
+    EXPECT_TRUE(parse({"--version"}).version);
+}
+
+TEST(Options, AProfileIsChangedByItsSingleAnswersWhateverTheOrder) {
+    for (const auto& arguments :
+         {std::vector<std::string>{"--bias=exact", "--step=0.5", "--type=nonuniform",
+                                   "--profile=thesis", "--walk=descent"},
+          std::vector<std::string>{"--profile=thesis", "--walk=descent", "--type=nonuniform",
+                                   "--step=0.5", "--bias=exact"}}) {
+        const Options options = parse(arguments);
+        EXPECT_EQ(options.profile_name, "thesis");
+        EXPECT_FALSE(options.profile.bias.has_value());
+        EXPECT_EQ(options.profile.step, 0.5);
+        EXPECT_EQ(options.profile.walk, WalkChoice::kDescent);
+        EXPECT_EQ(options.profile.type, OctreeType::kNonuniform);
+        // Not given, so as the thesis has them:
+        EXPECT_EQ(options.profile.costs, CostChoice::kThesis);
+        EXPECT_EQ(options.profile.leaves, LeafContent::kShapes);
+        EXPECT_EQ(options.profile.precision, Precision::kFloat);
+    }
+}
+
+TEST(Options, EveryAnswerOfAProfileHasAFlag) {
+    const Options options =
+        parse({"--costs=thesis:12.5", "--leaves=shapes", "--precision=double", "--bias=0.04"});
+    EXPECT_EQ(options.profile.costs, CostChoice::kThesis);
+    EXPECT_EQ(options.profile.thesis_weight, 12.5);
+    EXPECT_EQ(options.profile.leaves, LeafContent::kShapes);
+    EXPECT_EQ(options.profile.precision, Precision::kDouble);
+    EXPECT_EQ(options.profile.bias, 0.04);
+    EXPECT_EQ(parse({"--costs=thesis"}).profile.thesis_weight, 8);
+    EXPECT_EQ(parse({"--max-objects=3"}).profile.max_objects, std::size_t{3});
+    EXPECT_EQ(parse({"--bias=0"}).profile.bias, 0.0);
+}
+
+TEST(Options, EveryListedWordIsTaken) {
+    for (const Flag& flag : flags()) {
+        if (!contains(flag.value, "|") || contains(flag.value, "exact|") ||
+            contains(flag.value, "["))
+            continue;  // those with a number among the words have tests of their own
+        for (std::size_t at = 0; at < flag.value.size();) {
+            const std::size_t end = std::min(flag.value.find('|', at), flag.value.size());
+            std::vector<std::string> arguments{"--" + flag.name + "=" +
+                                               flag.value.substr(at, end - at)};
+            if (flag.name == "midpoint") arguments.push_back("--type=nonuniform");
+            EXPECT_EQ(usage_error(arguments), "");
+            at = end + 1;
+        }
+    }
+}
+
+TEST(Options, LimitsHoldAtTheLimitAndOneBesideIt) {
+    EXPECT_EQ(parse({"--res=16384,1"}).resolution, (Resolution{16384, 1}));
+    EXPECT_EQ(parse({"--rep=1000000"}).repetitions, 1000000);
+    EXPECT_TRUE(contains(usage_error({"--res=16385,1"}), "16384"));
+    EXPECT_TRUE(contains(usage_error({"--res=1,16385"}), "16384"));
+    EXPECT_TRUE(contains(usage_error({"--res=0,1"}), "16384"));
+    EXPECT_TRUE(contains(usage_error({"--rep=1000001"}), "1000000"));
+    EXPECT_TRUE(contains(usage_error({"--rep=0"}), "1000000"));
+}
+
+TEST(Options, BadValuesAreNamedWithTheirFlag) {
+    for (const char* bad : {"--res=0,0",
+                            "--res=99999999,1",
+                            "--res=4",
+                            "--res=4,",
+                            "--res=,4",
+                            "--res=4,5,6",
+                            "--res=4x5",
+                            "--res=-4,5",
+                            "--res= 4,5",
+                            "--res=4.0,5",
+                            "--rep=0",
+                            "--rep=-1",
+                            "--rep=five",
+                            "--rep=1e3",
+                            "--rep=5 ",
+                            "--rep=99999999999999999999",
+                            "--type=octree",
+                            "--type=Uniform",
+                            "--profile=quick",
+                            "--costs=cheap",
+                            "--costs=thesis:",
+                            "--costs=thesis:0",
+                            "--costs=thesis:nan",
+                            "--costs=calibrated:3",
+                            "--step=0",
+                            "--step=-1",
+                            "--step=nan",
+                            "--step=inf",
+                            "--bias=-0.1",
+                            "--bias=nan",
+                            "--bias=0.1m",
+                            "--max-objects=0",
+                            "--max-objects=-1",
+                            "--leaves=trees",
+                            "--walk=run",
+                            "--precision=half",
+                            "--headlight=dim",
+                            "--midpoint=middle"}) {
+        const std::string error = usage_error({bad});
+        EXPECT_TRUE(contains(error, bad)) << bad << " gave: " << error;
+        EXPECT_FALSE(contains(error, "\n"));
+    }
+}
+
+TEST(Options, MissingAndSuperfluousValuesAreRefused) {
+    for (const char* bad : {"--file", "--file=", "--rep=", "--quiet=yes", "-compare=1"})
+        EXPECT_NE(usage_error({bad}), "") << bad;
+}
+
+TEST(Options, AMistypedFlagIsAnsweredWithTheNearest) {
+    const std::pair<std::string, std::string> cases[] = {{"--fiel=a", "--file"},
+                                                         {"--typ=uniform", "--type"},
+                                                         {"-compere", "-compare"},
+                                                         {"-showoctre", "-showoctree"},
+                                                         {"--headlght=on", "--headlight"},
+                                                         {"--max-object=3", "--max-objects"},
+                                                         {"--hepl", "-h"}};
+    for (const auto& [typed, meant] : cases)
+        EXPECT_EQ(usage_error({typed}), typed + ": unknown flag, did you mean " + meant + "?");
+}
+
+TEST(Options, AnUnknownFlagFarFromAllIsNotGuessedAt) {
+    const std::string error = usage_error({"--xyzzyplugh"});
+    EXPECT_TRUE(contains(error, "--xyzzyplugh: unknown flag"));
+    EXPECT_FALSE(contains(error, "did you mean"));
+}
+
+TEST(Options, AbbreviationsAreNotGuessed) {
+    EXPECT_TRUE(contains(usage_error({"--prof=exact"}), "did you mean --profile?"));
+    EXPECT_NE(usage_error({"--comp"}), "");
+}
+
+TEST(Options, AFlagGivenTwiceIsRefused) {
+    EXPECT_TRUE(contains(usage_error({"--rep=1", "--rep=1"}), "--rep"));
+    EXPECT_TRUE(contains(usage_error({"-compare", "--compare"}), "compare"));
+    EXPECT_TRUE(contains(usage_error({"--quiet", "--file=a", "--quiet"}), "--quiet"));
+}
+
+TEST(Options, AWordWithoutAFlagIsRefused) {
+    EXPECT_TRUE(contains(usage_error({"scene.x3d"}), "--file=scene.x3d"));
+}
+
+TEST(Options, FlagsThatContradictEachOtherAreRefused) {
+    EXPECT_TRUE(contains(usage_error({"--midpoint=sweep"}), "--midpoint=sweep"));
+    EXPECT_TRUE(contains(usage_error({"--midpoint=sweep", "--type=uniform"}), "uniform"));
+    EXPECT_EQ(usage_error({"--midpoint=sweep", "-compare"}), "");
+    EXPECT_NE(usage_error({"--type=uniform", "-compare"}), "");
+    EXPECT_NE(usage_error({"--rays=r", "-compare"}), "");
+    EXPECT_NE(usage_error({"--rays=r", "-showoctree"}), "");
+    EXPECT_NE(usage_error({"--max-objects=3", "--costs=thesis"}), "");
+}
+
+TEST(Flags, NamesAreUniqueAndEveryRowIsComplete) {
+    std::set<std::string> names;
+    for (const Flag& flag : flags()) {
+        EXPECT_TRUE(names.insert(flag.name).second) << flag.name;
+        EXPECT_TRUE(contains(flag.spelling, flag.name)) << flag.name;
+        EXPECT_FALSE(flag.help.empty()) << flag.name;
+        EXPECT_NE(flag.apply, nullptr) << flag.name;
+    }
+}
+
+TEST(Flags, StandardValuesInTheTableAreTheDefaultsOfTheParser) {
+    const Options untouched = parse({});
+    for (const Flag& flag : flags()) {
+        if (flag.standard.empty() || flag.standard == "by profile") continue;
+        std::vector<std::string> arguments{"--" + flag.name + "=" + flag.standard};
+        if (flag.name == "midpoint") arguments.push_back("-compare");
+        const Options given = parse(arguments);
+        EXPECT_EQ(given.file, untouched.file) << flag.name;
+        EXPECT_EQ(given.repetitions, untouched.repetitions) << flag.name;
+        EXPECT_EQ(given.resolution, untouched.resolution) << flag.name;
+        EXPECT_EQ(given.profile.type, untouched.profile.type) << flag.name;
+        EXPECT_EQ(given.profile.midpoint, untouched.profile.midpoint) << flag.name;
+        EXPECT_EQ(given.profile.precision, untouched.profile.precision) << flag.name;
+        EXPECT_EQ(given.headlight, untouched.headlight) << flag.name;
+    }
+}
+
+TEST(Flags, HelpListsEveryRowWithinEightyColumns) {
+    const std::string help = help_text();
+    for (const Flag& flag : flags()) EXPECT_TRUE(contains(help, "\n  " + flag.spelling));
+    std::size_t column = 0;
+    for (const char c : help) {
+        column = c == '\n' ? 0 : column + 1;
+        EXPECT_LE(column, 80u);
+    }
+}
+
+TEST(Flags, TheDocumentationHoldsTheTable) {
+    EXPECT_TRUE(contains(text_of("docs/command-line.md"), help_markdown()))
+        << "docs/command-line.md must hold this table:\n"
+        << help_markdown();
+    const std::string readme = text_of("README.md");
+    if (contains(readme, "| flag |")) {
+        EXPECT_TRUE(contains(readme, help_markdown())) << "README.md must hold this table:\n"
+                                                       << help_markdown();
+    }
+}
+
+}  // namespace
+}  // namespace nuvo::app

@@ -1,0 +1,236 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <thread>
+
+#include "cli/program_runner.h"
+#include "nuvo/app/options.h"
+
+namespace nuvo::cli_test {
+namespace {
+
+using Program = ProgramTest;
+
+bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+TEST_F(Program, HelpIsTheTableOfFlags) {
+    for (const char* help : {"-h", "--help"}) {
+        const Outcome outcome = run({help, "--file=missing"});
+        EXPECT_EQ(outcome.exit_code, 0);
+        EXPECT_EQ(outcome.out, app::help_text());
+        EXPECT_EQ(outcome.err, "");
+    }
+}
+
+TEST_F(Program, VersionIsOneLine) {
+    const Outcome outcome = run({"--version"});
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_EQ(outcome.out.rfind("nuvo ", 0), 0u);
+    EXPECT_EQ(outcome.out.find('\n') + 1, outcome.out.size());
+}
+
+TEST_F(Program, ThePictureLandsBesideTheSceneHoweverItIsNamed) {
+    put("a.x3d", kSmallScene);
+    fs::create_directory(folder_ / "sub");
+    fs::copy_file(folder_ / "a.x3d", folder_ / "sub" / "b.x3d");
+    EXPECT_EQ(run({"--file=a", "--rep=1", "--res=13,7"}).exit_code, 0);
+    EXPECT_EQ(run({"--file=sub/b.x3d", "--rep=1", "--res=13,7"}).exit_code, 0);
+    EXPECT_EQ(files(), (std::set<std::string>{"a.x3d", "a.bmp", "sub"}));
+    const std::string bytes = content("a.bmp");
+    EXPECT_EQ(bytes.size(), 54u + 7u * 40u);  // rows of 39 bytes, padded
+    EXPECT_EQ(bytes.substr(0, 2), "BM");
+    EXPECT_EQ(static_cast<unsigned char>(bytes[18]), 13u);
+    EXPECT_EQ(static_cast<unsigned char>(bytes[22]), 7u);
+    EXPECT_TRUE(bytes == content("sub/b.bmp"));
+}
+
+TEST_F(Program, ANameThatExistsIsTakenAsGiven) {
+    put("a", kSmallScene);
+    put("a.x3d", "not this one");
+    EXPECT_EQ(run({"--file=a", "--rep=1", "--res=4,4"}).exit_code, 0);
+    EXPECT_TRUE(exists("a.bmp"));
+}
+
+TEST_F(Program, OutReplacesWhatIsThere) {
+    put("a.x3d", kSmallScene);
+    put("picture", "old");
+    EXPECT_EQ(run({"--file=a", "--rep=1", "--res=4,4", "--out=picture"}).exit_code, 0);
+    EXPECT_EQ(content("picture").size(), 54u + 4u * 12u);
+    EXPECT_EQ(files(), (std::set<std::string>{"a.x3d", "picture"}));
+}
+
+TEST_F(Program, TheReportSaysWhatTheThesisSays) {
+    put("a.x3d", kSmallScene);
+    const Outcome outcome = run({"--file=a", "--rep=3", "--res=16,16"});
+    EXPECT_EQ(outcome.exit_code, 0);
+    for (const char* part : {"2 shapes, 2 triangles, 1 sphere, 2 lights", "depth ", " voxel",
+                             "build", "trace", "average", "3 repetitions", "a.bmp"})
+        EXPECT_TRUE(contains(outcome.out, part)) << part << "\n" << outcome.out;
+}
+
+TEST_F(Program, QuietSilencesTheReportButNoWarning) {
+    put("a.x3d",
+        "<X3D version='3.0'><Scene><Shape><Text string='\"hello\"'/></Shape></Scene></X3D>");
+    const Outcome outcome = run({"--file=a", "--rep=1", "--res=4,4", "--quiet"});
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_TRUE(contains(outcome.err, "nuvo: warning: "));
+    EXPECT_TRUE(contains(outcome.err, "Text"));
+}
+
+TEST_F(Program, TheOctreeIsPrintedBeforeTheReport) {
+    put("a.x3d", grid_scene(3));
+    const Outcome outcome =
+        run({"--file=a", "--rep=1", "--res=4,4", "-showoctree", "--max-objects=2"});
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_GT(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 12);
+    EXPECT_EQ(outcome.out.rfind("uniform octree\n", 0), 0u);
+    EXPECT_TRUE(contains(outcome.out, "\nscene "));
+}
+
+TEST_F(Program, TheSameCommandTwiceGivesTheSameBytesAndSoDoesTheOtherType) {
+    put("a.x3d", grid_scene(4));
+    for (const char* profile : {"--profile=exact", "--profile=thesis"})
+        for (const char* type : {"uniform", "nonuniform"})
+            for (const char* time : {"1", "2"})
+                ASSERT_EQ(run({"--file=a", "--rep=2", "--res=40,30", profile,
+                               std::string("--type=") + type,
+                               std::string("--out=") + (profile + 10) + type + time})
+                              .exit_code,
+                          0);
+    for (const char* name :
+         {"exactuniform", "exactnonuniform", "thesisuniform", "thesisnonuniform"})
+        EXPECT_TRUE(content(std::string(name) + "1") == content(std::string(name) + "2")) << name;
+    EXPECT_TRUE(content("exactuniform1") == content("exactnonuniform1"));
+}
+
+TEST_F(Program, JsonHoldsCountsAndEveryRawTime) {
+    put("a.x3d", kSmallScene);
+    ASSERT_EQ(run({"--file=a", "--rep=4", "--res=20,10", "--json=a.json"}).exit_code, 0);
+    const auto json = nlohmann::json::parse(content("a.json"));
+    EXPECT_EQ(json["file"], "a.x3d");
+    EXPECT_EQ(json["repetitions"], 4);
+    EXPECT_EQ(json["build_seconds"].size(), 4u);
+    EXPECT_EQ(json["trace_seconds"].size(), 4u);
+    EXPECT_EQ(json["counts"]["primary_rays"], 200);
+    EXPECT_EQ(json["scene"]["shapes"], 2);
+    EXPECT_EQ(json["scene"]["triangles"], 2);
+    EXPECT_EQ(json["scene"]["spheres"], 1);
+    EXPECT_EQ(json["tree"]["voxels"].get<int>() % 7, 1);  // each cut turns one leaf into eight
+    for (const char* key :
+         {"parse_seconds", "write_seconds", "user_seconds", "system_seconds", "wall_seconds"})
+        EXPECT_GE(json[key].get<double>(), 0) << key;
+    for (const char* key :
+         {"type", "costs", "leaves", "walk", "step", "precision", "bias", "midpoint"})
+        EXPECT_TRUE(json["profile"].contains(key)) << key;
+}
+
+TEST_F(Program, CountersAreAsked) {
+    put("a.x3d", kSmallScene);
+    const std::vector<std::string> plain{"--file=a", "--rep=1", "--res=4,4"};
+    EXPECT_FALSE(contains(run(plain).out, "voxel searches"));
+    std::vector<std::string> counting = plain;
+    counting.push_back("--counters");
+    EXPECT_TRUE(contains(run(counting).out, "voxel searches"));
+}
+
+TEST_F(Program, CompareFindsNoDifferenceInTheExactProfile) {
+    put("a.x3d", grid_scene(4));
+    const Outcome outcome = run({"--file=a", "--res=48,36", "-compare"});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+    std::istringstream lines(outcome.out);
+    int equal_pairs = 0;
+    for (std::string line; std::getline(lines, line);)
+        equal_pairs += contains(line, " / ") && contains(line, " 0 differing pixels");
+    EXPECT_EQ(equal_pairs, 3) << outcome.out;
+    EXPECT_EQ(files(), (std::set<std::string>{"a.x3d", "a.bmp", "a-difference.bmp"}));
+    const std::string pixels = content("a-difference.bmp").substr(54);
+    EXPECT_EQ(pixels, std::string(48 * 36 * 3, '\0'));
+}
+
+TEST_F(Program, CompareEndsWithOneWherePicturesDiffer) {
+    put("a.x3d", grid_scene(4));
+    // A step of 10^9 voxels leaves the tree at the first face: most spheres are never reached.
+    const Outcome outcome = run({"--file=a", "--res=48,36", "-compare", "--profile=thesis",
+                                 "--max-objects=1", "--step=1e9", "--out=c.bmp", "--json=c.json"});
+    EXPECT_EQ(outcome.exit_code, 1) << outcome.out << outcome.err;
+    EXPECT_NE(content("c-difference.bmp").substr(54), std::string(48 * 36 * 3, '\0'));
+    const auto json = nlohmann::json::parse(content("c.json"));
+    ASSERT_EQ(json["pairs"].size(), 3u);
+    EXPECT_GT(json["pairs"][1]["differing_pixels"], 0);  // uniform against brute force
+    EXPECT_GT(json["pairs"][1]["max_difference"], 0);
+}
+
+TEST_F(Program, RaysAreAnsweredLineForLine) {
+    put("a.x3d", kSmallScene);
+    put("rays",
+        "0 0 10 0 0 -1\n"       // the sphere, 9 away
+        "0 0 10 0 0 -2\n"       // the same in units of 2
+        "5 5 10 0 0 -1\n\n"     // past everything
+        "1.5 -1.75 8 0 0 -1\n"  // the square's first triangle at z = -2
+        "-1.5 1.75 8 0 0 -4\n"  // and its second
+        "0 0 0 0 0 1\n");       // from the sphere's centre
+    const std::string expected = "1 0 0 9\n1 0 0 4.5\n0 -1 -1 inf\n1 1 0 10\n1 1 1 2.5\n1 0 0 1\n";
+    for (const char* type : {"--type=uniform", "--type=nonuniform"}) {
+        const Outcome outcome = run({"--file=a", "--rays=rays", type});
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        EXPECT_EQ(outcome.out, expected);
+        EXPECT_EQ(run({"--file=a", "--rays=rays", type, "--out=answers"}).exit_code, 0);
+        EXPECT_EQ(content("answers"), expected);
+    }
+    EXPECT_FALSE(exists("a.bmp"));
+}
+
+TEST_F(Program, AShapeThatDrawsNothingStillCounts) {
+    put("a.x3d",
+        "<X3D version='3.0'><Scene><Shape/><Shape DEF='S'><Sphere/></Shape>"
+        "<Transform translation='4 0 0'><Shape USE='S'/></Transform></Scene></X3D>");
+    put("rays", "0 0 10 0 0 -1\n4 0 10 0 0 -1\n");
+    EXPECT_EQ(run({"--file=a", "--rays=rays"}).out, "1 1 0 9\n1 2 0 9\n");
+}
+
+TEST_F(Program, ASceneWithoutShapesIsItsBackground) {
+    put("a.x3d", "<Scene><Background skyColor='0 0 1' groundColor='0 0 1'/></Scene>");
+    for (const char* type : {"--type=uniform", "--type=nonuniform"}) {
+        ASSERT_EQ(run({"--file=a", "--rep=1", "--res=4,1", type, "--json=a.json"}).exit_code, 0);
+        std::string blue;
+        for (int i = 0; i < 4; ++i) blue += std::string("\xff\0\0", 3);
+        EXPECT_EQ(content("a.bmp").substr(54), blue);
+        EXPECT_TRUE(nlohmann::json::accept(content("a.json")));
+    }
+}
+
+/// True once the process has a handler for `signal`, so that the test need not guess a time.
+bool catches(pid_t process, int signal) {
+    std::ifstream status("/proc/" + std::to_string(process) + "/status");
+    for (std::string line; std::getline(status, line);)
+        if (line.rfind("SigCgt:", 0) == 0)
+            return (std::stoull(line.substr(7), nullptr, 16) >> (signal - 1) & 1) != 0;
+    return false;
+}
+
+TEST_F(Program, ASignalLeavesTheOldPictureAndNoOther) {
+    put("a.x3d", grid_scene(4));
+    put("a.bmp", "old");
+    const std::pair<int, int> cases[] = {{SIGINT, 130}, {SIGTERM, 143}, {SIGKILL, -1}};
+    for (const auto& [signal, exit_code] : cases) {
+        const pid_t child = start({"--file=a", "--res=400,400", "--rep=1000000"});
+        for (int i = 0; i < 1000 && !catches(child, SIGINT); ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));  // into the rendering
+        ASSERT_EQ(::kill(child, signal), 0);
+        EXPECT_EQ(finish(child).exit_code, exit_code);
+        EXPECT_EQ(content("a.bmp"), "old");
+        EXPECT_EQ(files(), (std::set<std::string>{"a.x3d", "a.bmp"}));
+    }
+}
+
+}  // namespace
+}  // namespace nuvo::cli_test
