@@ -1,16 +1,11 @@
 #include "nuvo/geometry/overlap.h"
 
 #include <cmath>
-#include <limits>
+
+#include "nuvo/math/error_bounds.h"
 
 namespace nuvo {
 namespace {
-
-// gamma(n) = n u / (1 - n u) bounds the relative error of n roundings (Higham 2002, lemma 3.1).
-constexpr double gamma(int n) {
-    constexpr double kRoundoff = std::numeric_limits<double>::epsilon() / 2;
-    return n * kRoundoff / (1 - n * kRoundoff);
-}
 
 Vector3 absolute(const Vector3& v) { return {std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}; }
 

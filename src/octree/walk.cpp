@@ -1,11 +1,12 @@
 #include "nuvo/octree/walk.h"
 
+#include "nuvo/math/error_bounds.h"
+
 namespace nuvo {
 
 double path_error_bound(const Bounds3& root) {
-    constexpr double kRoundoff = std::numeric_limits<double>::epsilon() / 2;
     const double size = std::fmax(max_norm(root.min), max_norm(root.max));
-    return 16 * kRoundoff * size;
+    return 16 * kUnitRoundoff * size;
 }
 
 }  // namespace nuvo

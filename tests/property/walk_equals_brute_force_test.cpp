@@ -76,30 +76,35 @@ std::vector<Ray> hard_rays(const Scene& scene, const Octree& octree, unsigned se
 void expect_walks_equal_brute_force(const Scene& scene, unsigned seed, int count) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     for (const LeafContent leaves : {LeafContent::kPrimitives, LeafContent::kShapes}) {
-        const Primitives primitives = flatten(scene, leaves);
-        for (const MidpointChoice midpoint :
-             {MidpointChoice::kSpatial, MidpointChoice::kSweep, MidpointChoice::kMlslSbplx}) {
-            Profile profile = exact_profile();
-            profile.type = OctreeType::kNonuniform;  // cut at the spatial centre it is uniform
-            profile.midpoint = midpoint;
-            profile.leaves = leaves;
-            const Octree octree = build_tree(scene, primitives, profile);
-            EXPECT_GT(octree.leaf_count(), 50U);
-            const std::vector<Ray> rays = hard_rays(scene, octree, seed, count);
-            const auto expected = closest_hits(scene, primitives, nullptr, profile, rays);
-            for (const WalkChoice walk : {WalkChoice::kHash, WalkChoice::kDescent}) {
-                profile.walk = walk;
-                const auto found = closest_hits(scene, primitives, &octree, profile, rays);
-                int hits = 0;
-                for (std::size_t i = 0; i < rays.size(); ++i) {
-                    hits += expected[i].hit;
-                    ASSERT_TRUE(
-                        found[i].hit == expected[i].hit && found[i].shape == expected[i].shape &&
-                        found[i].triangle == expected[i].triangle && found[i].t == expected[i].t)
-                        << "ray " << i << ": shape " << found[i].shape << " at " << found[i].t
-                        << " instead of " << expected[i].shape << " at " << expected[i].t;
+        for (const auto max_objects :
+             {std::optional<std::size_t>(), std::optional<std::size_t>(2)}) {
+            const Primitives primitives = flatten(scene, leaves);
+            for (const MidpointChoice midpoint :
+                 {MidpointChoice::kSpatial, MidpointChoice::kSweep, MidpointChoice::kMlslSbplx}) {
+                Profile profile = exact_profile();
+                profile.type = OctreeType::kNonuniform;  // cut at the spatial centre it is uniform
+                profile.midpoint = midpoint;
+                profile.leaves = leaves;
+                profile.max_objects = max_objects;  // 2: as deep as trees get
+                const Octree octree = build_tree(scene, primitives, profile);
+                EXPECT_GT(octree.leaf_count(), 8U);
+                const std::vector<Ray> rays = hard_rays(scene, octree, seed, count);
+                const auto expected = closest_hits(scene, primitives, nullptr, profile, rays);
+                for (const WalkChoice walk : {WalkChoice::kHash, WalkChoice::kDescent}) {
+                    profile.walk = walk;
+                    const auto found = closest_hits(scene, primitives, &octree, profile, rays);
+                    int hits = 0;
+                    for (std::size_t i = 0; i < rays.size(); ++i) {
+                        hits += expected[i].hit;
+                        ASSERT_TRUE(found[i].hit == expected[i].hit &&
+                                    found[i].shape == expected[i].shape &&
+                                    found[i].triangle == expected[i].triangle &&
+                                    found[i].t == expected[i].t)
+                            << "ray " << i << ": shape " << found[i].shape << " at " << found[i].t
+                            << " instead of " << expected[i].shape << " at " << expected[i].t;
+                    }
+                    EXPECT_GT(hits, count / 10);
                 }
-                EXPECT_GT(hits, count / 10);
             }
         }
     }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "nuvo/math/error_bounds.h"
 #include "nuvo/octree/octree.h"
 
 namespace nuvo {
@@ -61,7 +62,6 @@ class ExactWalk {
     };
 
     static constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    static constexpr double kRoundoff = std::numeric_limits<double>::epsilon() / 2;
 
     double heading_face(const Bounds3& box, int axis) const {
         return direction_[axis] > 0 ? box.max[axis] : box.min[axis];
@@ -78,7 +78,7 @@ class ExactWalk {
             double t = 0;
             int axis = 0;
             if (!slab_entry(root, t, axis)) return false;
-            base_ = std::fmax(0.0, t * (1 - 8 * kRoundoff));
+            base_ = std::fmax(0.0, t * (1 - 8 * kUnitRoundoff));
             origin_ = {std::fma(base_, direction_.x, origin_.x),
                        std::fma(base_, direction_.y, origin_.y),
                        std::fma(base_, direction_.z, origin_.z)};
@@ -113,7 +113,7 @@ class ExactWalk {
             }
             exit = std::fmin(exit, (heading_face(root, axis) - origin_[axis]) / d);
         }
-        return entry <= exit + 8 * kRoundoff * (entry + std::fabs(exit));
+        return entry <= exit + 8 * kUnitRoundoff * (entry + std::fabs(exit));
     }
 
     // From the path's last node down to the leaf that the ray is in at, or just after, position_:
@@ -142,7 +142,7 @@ class ExactWalk {
     }
 
     double lower_bound_of(double t) const {
-        return (base_ + t) - 8 * kRoundoff * (base_ + std::fabs(t));
+        return (base_ + t) - 8 * kUnitRoundoff * (base_ + std::fabs(t));
     }
 
     // Onto the face that is left; the other axes follow the ray without ever going back.
