@@ -45,41 +45,6 @@ int exact_triple_sign(const ExactVector& d, const ExactVector& p, const ExactVec
     return dot(d, cross(p, q)).sign();
 }
 
-/// Decides what the cheap stage did not: tighter bounds, then exact signs.
-[[gnu::cold, gnu::noinline]] LineTest decided_line_test(const ExactRay& ray, const Triangle& t,
-                                                        StageCounts& counts) {
-    ++counts.wider;
-    const Vector3 corner[3] = {t.a - ray.origin(), t.b - ray.origin(), t.c - ray.origin()};
-    int signs[3];
-    bool positive = false;
-    bool negative = false;
-    bool all_sure = true;
-    for (int i = 0; i < 3; ++i) {
-        const Bounded edge =
-            triple_product(ray.direction(), corner[(i + 2) % 3], corner[(i + 1) % 3]);
-        signs[i] = edge.sure() ? edge.sign() : 0;
-        all_sure = all_sure && signs[i] != 0;
-        positive = positive || signs[i] > 0;
-        negative = negative || signs[i] < 0;
-    }
-    if (positive && negative) return LineTest::kMisses;
-    if (all_sure) return LineTest::kMeets;
-    ++counts.exact;
-    const ExactVector o(ray.origin());
-    const ExactVector d = exact_direction(ray);
-    const ExactVector exact_corner[3] = {ExactVector(t.a) - o, ExactVector(t.b) - o,
-                                         ExactVector(t.c) - o};
-    for (int i = 0; i < 3; ++i) {
-        if (signs[i] != 0) continue;
-        const int sign = exact_triple_sign(d, exact_corner[(i + 2) % 3], exact_corner[(i + 1) % 3]);
-        positive = positive || sign > 0;
-        negative = negative || sign < 0;
-        if (positive && negative) return LineTest::kMisses;
-    }
-    // All zero: the line lies in the plane, or there is no plane.
-    return positive || negative ? LineTest::kMeets : LineTest::kMisses;
-}
-
 /// The plane form t = n.(a - o) / n.d in double: n comes from the edges, so that a small triangle
 /// far away keeps its accuracy.
 struct PlaneRoot {
@@ -131,11 +96,42 @@ PlaneRoot plane_root(const ExactRay& ray, const Triangle& t) {
 
 }  // namespace
 
-std::optional<Root> triangle_hit(const ExactRay& ray, const Triangle& triangle, LineTest test,
+// First a bound for each edge, then exact signs.
+LineTest line_test_alone(const ExactRay& ray, const Triangle& t, StageCounts& counts) {
+    if (std::isfinite(ray.edge_error())) ++counts.wider;
+    const Vector3 corner[3] = {t.a - ray.origin(), t.b - ray.origin(), t.c - ray.origin()};
+    int signs[3];
+    bool positive = false;
+    bool negative = false;
+    bool all_sure = true;
+    for (int i = 0; i < 3; ++i) {
+        const Bounded edge =
+            triple_product(ray.direction(), corner[(i + 2) % 3], corner[(i + 1) % 3]);
+        signs[i] = edge.sure() ? edge.sign() : 0;
+        all_sure = all_sure && signs[i] != 0;
+        positive = positive || signs[i] > 0;
+        negative = negative || signs[i] < 0;
+    }
+    if (positive && negative) return LineTest::kMisses;
+    if (all_sure) return LineTest::kMeets;
+    ++counts.exact;
+    const ExactVector o(ray.origin());
+    const ExactVector d = exact_direction(ray);
+    const ExactVector exact_corner[3] = {ExactVector(t.a) - o, ExactVector(t.b) - o,
+                                         ExactVector(t.c) - o};
+    for (int i = 0; i < 3; ++i) {
+        if (signs[i] != 0) continue;
+        const int sign = exact_triple_sign(d, exact_corner[(i + 2) % 3], exact_corner[(i + 1) % 3]);
+        positive = positive || sign > 0;
+        negative = negative || sign < 0;
+        if (positive && negative) return LineTest::kMisses;
+    }
+    // All zero: the line lies in the plane, or there is no plane.
+    return positive || negative ? LineTest::kMeets : LineTest::kMisses;
+}
+
+std::optional<Root> triangle_hit(const ExactRay& ray, const Triangle& triangle,
                                  StageCounts& counts) {
-    const bool unsure = test == LineTest::kUnsure;
-    if (unsure && decided_line_test(ray, triangle, counts) == LineTest::kMisses)
-        return std::nullopt;
     const PlaneRoot root = plane_root(ray, triangle);
     const Bounded& n = root.numerator;
     const Bounded& d = root.denominator;
@@ -144,14 +140,12 @@ std::optional<Root> triangle_hit(const ExactRay& ray, const Triangle& triangle, 
     const double t = n.value / d.value;
     if (n.within(kShare) && d.within(kShare) && t > kSmallestRoot && t < kLargestRoot)
         return Root{t, t * (1 - root_tolerance()), t * (1 + root_tolerance())};
-    if (!unsure) ++counts.wider;
+    ++counts.wider;
     return exact_triangle_hit(ray, triangle, counts);
 }
 
 bool triangle_blocks(const ExactRay& shadow, double end, double origin_error,
-                     const Triangle& triangle, LineTest test, StageCounts& counts) {
-    const bool unsure = test == LineTest::kUnsure;
-    if (unsure && decided_line_test(shadow, triangle, counts) == LineTest::kMisses) return false;
+                     const Triangle& triangle, StageCounts& counts) {
     const PlaneRoot root = plane_root(shadow, triangle);
     const Bounded& n = root.numerator;
     const Bounded& d = root.denominator;
@@ -167,7 +161,7 @@ bool triangle_blocks(const ExactRay& shadow, double end, double origin_error,
             return true;
         if (high + kUnderflow < origin_error * (norm1 - norm1_error) * (1 - gamma(4))) return false;
     }
-    if (!unsure) ++counts.wider;
+    ++counts.wider;
     return exact_triangle_blocks(shadow, end, origin_error, triangle, counts);
 }
 
@@ -229,7 +223,7 @@ SurfacePoint surface_point(const ExactRay& ray, const Triangle& t) {
     const double length1 = detail::sum(detail::magnitude(normal));
     const bool well_shaped = detail::sum(magnitudes) < length1 / std::sqrt(kUnitRoundoff) &&
                              length1 > detail::kSmallestSquare && length1 < detail::kLargestSquare;
-    if (!(s.sure() && result.error < root_tolerance() * corners && well_shaped))
+    if (!(s.sure() && result.error < 8 * root_tolerance() * corners && well_shaped))
         return exact_surface_point(ray, t);
     result.normal = normalized(normal);
     const auto clamped = [](double weight) { return weight < 0 ? 0 : weight > 1 ? 1 : weight; };

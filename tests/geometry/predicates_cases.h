@@ -74,6 +74,14 @@ inline ExactRay ray_through(Random& random, const Point3& from, const Point3& to
     return random.below(2) != 0 ? ExactRay::between(o, p) : ExactRay(Ray{o, p - o});
 }
 
+/// The same ray with the bound of a scene that just holds `triangle`.
+inline ExactRay within_scene(const ExactRay& ray, const Triangle& triangle) {
+    const nuvo::Bounds3 scene = triangle.bounds();
+    return ray.tail() == Vector3{}
+               ? ExactRay(Ray{ray.origin(), ray.direction()}, scene)
+               : ExactRay::between(ray.origin(), ray.origin() + ray.direction(), scene);
+}
+
 inline Triangle placed(const Random& random, const Triangle& t) {
     return {random.placed(t.a), random.placed(t.b), random.placed(t.c)};
 }
@@ -139,7 +147,9 @@ inline TriangleCase triangle_case(Random& random, int kind) {
             to = t.a * 0.2 + t.b * 0.3 + t.c * 0.5;
         }
     }
-    return {ray_through(random, from, to), placed(random, t)};
+    const Triangle there = placed(random, t);
+    const ExactRay ray = ray_through(random, from, to);
+    return {random.below(4) != 0 ? within_scene(ray, there) : ray, there};
 }
 
 /// A sphere and a ray; kinds: random, aimed, tangent within 1e-8 .. 1e-3 R, exactly tangent, origin

@@ -23,18 +23,35 @@ struct StageCounts {
     std::uint64_t exact = 0;  ///< exact arithmetic decided
 };
 
+namespace detail {
+
+/// The error of d . (C x B) where |d| <= d_norm and |B|, |C| <= norm (largest components):
+/// 6 products of 8 roundings each (difference B, difference C, tail of d, 3 products, 2 sums), and
+/// what underflow adds. Not finite where a product could overflow. [numerics: edge bound]
+inline double edge_error_bound(double d_norm, double norm) {
+    constexpr double kHeadroom = 16;  // > 6: no partial sum overflows where this product does not
+    const double scaled = (kHeadroom * norm * norm + kHeadroom * kUnderflow / gamma(8)) * d_norm;
+    return (6 * gamma(9) / kHeadroom) * scaled + 16 * kUnderflow;
+}
+
+}  // namespace detail
+
 /// origin + t * d, where d = direction + tail exactly; prepared for many tests. All coordinates and
 /// their differences are finite.
 class ExactRay {
   public:
-    explicit ExactRay(const Ray& ray) : ExactRay(ray.origin, ray.direction, {}) {}
+    /// A ray against any primitives. Slower: every triangle needs a bound of its own.
+    explicit ExactRay(const Ray& ray) : ExactRay(ray.origin, ray.direction, {}, kUnknown) {}
+    /// A ray against triangles that all lie within `scene`: their bound is the ray's.
+    ExactRay(const Ray& ray, const Bounds3& scene)
+        : ExactRay(ray.origin, ray.direction, {}, reach(ray.origin, scene)) {}
 
     /// The ray with t = 0 at `from` and t = 1 at `to`, exactly.
     static ExactRay between(const Point3& from, const Point3& to) {
-        const TwoTerms x = two_diff(to.x, from.x);
-        const TwoTerms y = two_diff(to.y, from.y);
-        const TwoTerms z = two_diff(to.z, from.z);
-        return {from, {x.value, y.value, z.value}, {x.error, y.error, z.error}};
+        return between_within(from, to, kUnknown);
+    }
+    static ExactRay between(const Point3& from, const Point3& to, const Bounds3& scene) {
+        return between_within(from, to, reach(from, scene));
     }
 
     const Point3& origin() const { return origin_; }
@@ -42,17 +59,32 @@ class ExactRay {
     const Vector3& tail() const { return tail_; }
     /// Largest |component| of direction().
     double norm() const { return norm_; }
+    /// Bounds the error of the edge functions of every triangle of the scene; else infinite or NaN.
+    double edge_error() const { return edge_error_; }
     /// |d|, |d|^2 and its inverse, in double; NaN where a square could leave the range.
     double length() const { return length_; }
     double square() const { return square_; }
     double inverse_square() const { return inverse_square_; }
 
   private:
-    ExactRay(const Point3& origin, const Vector3& direction, const Vector3& tail)
+    static constexpr double kUnknown = std::numeric_limits<double>::infinity();
+
+    static ExactRay between_within(const Point3& from, const Point3& to, double reach) {
+        const TwoTerms x = two_diff(to.x, from.x);
+        const TwoTerms y = two_diff(to.y, from.y);
+        const TwoTerms z = two_diff(to.z, from.z);
+        return {from, {x.value, y.value, z.value}, {x.error, y.error, z.error}, reach};
+    }
+    /// Largest |component| that a rounded difference of a point of `scene` and `origin` can have.
+    static double reach(const Point3& origin, const Bounds3& scene) {
+        return std::fmax(max_norm(scene.min - origin), max_norm(scene.max - origin));
+    }
+    ExactRay(const Point3& origin, const Vector3& direction, const Vector3& tail, double reach)
         : origin_(origin),
           direction_(direction),
           tail_(tail),
           norm_(max_norm(direction)),
+          edge_error_(detail::edge_error_bound(norm_, reach)),
           square_(dot(direction, direction)) {
         constexpr double kRange = 0x1p800;  // [numerics: ranges]
         if (!(square_ > 1 / kRange && square_ < kRange))
@@ -65,6 +97,7 @@ class ExactRay {
     Vector3 direction_;
     Vector3 tail_;
     double norm_;
+    double edge_error_;
     double square_;
     double length_;
     double inverse_square_;
@@ -101,9 +134,8 @@ struct SurfacePoint {
 
 namespace detail {
 
-/// True where exact arithmetic is sure to find no common point of line and triangle, or that there
-/// is exactly one and it lies inside; else unsure.
-enum class LineTest : std::uint8_t { kMisses, kMeets, kUnsure };
+/// Whether the line has exactly one point in common with the triangle.
+enum class LineTest : std::uint8_t { kMisses, kMeets };
 
 /// Largest of |x|, |y|, |z|; unlike max_norm, a NaN may be lost (the products see it).
 inline double largest(const Vector3& v) {
@@ -114,33 +146,25 @@ inline double largest(const Vector3& v) {
     return xy > z ? xy : z;
 }
 
-/// The error of d . (C x B) where |d| <= d_norm and |B|, |C| <= norm (largest components):
-/// 6 products of 8 roundings each (difference B, difference C, tail of d, 3 products, 2 sums), and
-/// what underflow adds. Not finite where a product could overflow. [numerics: edge bound]
-inline double edge_error_bound(double d_norm, double norm) {
-    constexpr double kHeadroom = 16;  // > 6: no partial sum overflows where this product does not
-    const double scaled = (kHeadroom * norm * norm + kHeadroom * kUnderflow / gamma(8)) * d_norm;
-    return (6 * gamma(9) / kHeadroom) * scaled + 16 * kUnderflow;
-}
+/// The line test where the ray's own bound does not decide, or where it has none.
+LineTest line_test_alone(const ExactRay& ray, const Triangle& triangle, StageCounts& counts);
 
-inline LineTest line_test(const ExactRay& ray, const Triangle& triangle) {
+inline LineTest line_test(const ExactRay& ray, const Triangle& triangle, StageCounts& counts) {
+    const double error = ray.edge_error();
     const Vector3 a = triangle.a - ray.origin();
     const Vector3 b = triangle.b - ray.origin();
     const Vector3 c = triangle.c - ray.origin();
-    const double u = dot(ray.direction(), cross(c, b));
-    const double v = dot(ray.direction(), cross(a, c));
+    const Vector3 q = cross(ray.direction(), c);
+    const double u = dot(b, q);   // d . (c x b)
+    const double v = -dot(a, q);  // d . (a x c)
+    if ((u > error && v < -error) || (u < -error && v > error)) return LineTest::kMisses;
     const double w = dot(ray.direction(), cross(b, a));
-    const double an = largest(a);
-    const double bn = largest(b);
-    const double cn = largest(c);
-    const double ab = an > bn ? an : bn;
-    const double error = edge_error_bound(ray.norm(), ab > cn ? ab : cn);
     const bool positive = u > error || v > error || w > error;
     const bool negative = u < -error || v < -error || w < -error;
     if (positive && negative) return LineTest::kMisses;
     if ((u > error && v > error && w > error) || (u < -error && v < -error && w < -error))
         return LineTest::kMeets;
-    return LineTest::kUnsure;
+    return line_test_alone(ray, triangle, counts);
 }
 
 /// The magnitudes within which the squares and products of the sphere's stage neither overflow nor
@@ -148,39 +172,44 @@ inline LineTest line_test(const ExactRay& ray, const Triangle& triangle) {
 inline constexpr double kSmallestSquare = 0x1p-900;
 inline constexpr double kLargestSquare = 0x1p900;
 
-/// Bounds the error of R^2 - |l|^2, l = f - (f.d / d.d) d, by 16 u (|f|^2 + R^2).
-inline double depth_error_bound(double squares) { return gamma(16) * squares; }
-/// Bounds the error of f . d.
-inline double product_error_bound(double f_norm1, double d_length) {
-    return gamma(6) * f_norm1 * d_length;
-}
+/// Bounds the error of b^2 - a c: 32 u a (|f|^2 + R^2). [numerics: discriminant bound]
+inline double discriminant_error_bound(double a, double squares) { return gamma(32) * a * squares; }
 /// Bounds the error of |f|^2 - R^2.
-inline double power_error_bound(double squares) { return gamma(7) * squares; }
+inline double power_error_bound(double squares) { return gamma(8) * squares; }
 
-/// The line surely misses the sphere, or the ray surely starts outside and runs away; and the
-/// origin is surely further than `origin_error` (per component) from the surface.
-inline bool surely_missed(const ExactRay& ray, const Sphere& sphere, double origin_error) {
+/// The line surely misses the sphere, or the ray surely starts outside and runs away.
+inline bool surely_missed(const ExactRay& ray, const Sphere& sphere) {
     const Vector3 f = ray.origin() - sphere.center;
     const double b = dot(f, ray.direction());
-    const Vector3 l = f - ray.direction() * (b * ray.inverse_square());
     const double ff = dot(f, f);
     const double rr = sphere.radius * sphere.radius;
     const double squares = ff + rr;
-    if (!(squares > kSmallestSquare && squares < kLargestSquare)) return false;
+    const double c = ff - rr;
+    const double bb = b * b;
+    const double error = discriminant_error_bound(ray.square(), squares);
+    if (!(squares > kSmallestSquare)) return false;
+    return bb - ray.square() * c < -error ||
+           (b > 0 && bb > error && c > power_error_bound(squares));
+}
+/// The same, and the origin is surely further than `origin_error` (per component) from the surface.
+inline bool surely_clear(const ExactRay& ray, const Sphere& sphere, double origin_error) {
+    if (!surely_missed(ray, sphere)) return false;
+    const Vector3 f = ray.origin() - sphere.center;
+    const double ff = dot(f, f);
+    const double rr = sphere.radius * sphere.radius;
     const double norm1 = std::fabs(f.x) + std::fabs(f.y) + std::fabs(f.z);
     const double band = origin_error * (2 * norm1 + 3 * origin_error) * (1 + gamma(8));
-    if (!(ff - rr > power_error_bound(squares) + band)) return false;
-    return dot(l, l) - rr > depth_error_bound(squares) ||
-           b > product_error_bound(norm1, ray.length());
+    return ff - rr > power_error_bound(ff + rr) + band;
 }
 
 /// Outside of these the rounding of t itself may be subnormal or overflow.
 inline constexpr double kSmallestRoot = 0x1p-1000;
 inline constexpr double kLargestRoot = 0x1p1000;
 
-std::optional<Root> triangle_hit(const ExactRay&, const Triangle&, LineTest, StageCounts&);
+/// For a line that meets the triangle.
+std::optional<Root> triangle_hit(const ExactRay&, const Triangle&, StageCounts&);
 std::optional<SphereHit> sphere_hit(const ExactRay&, const Sphere&, StageCounts&);
-bool triangle_blocks(const ExactRay&, double end, double origin_error, const Triangle&, LineTest,
+bool triangle_blocks(const ExactRay&, double end, double origin_error, const Triangle&,
                      StageCounts&);
 bool sphere_blocks(const ExactRay&, double end, double origin_error, const Sphere&,
                    bool origin_on_it, StageCounts&);
@@ -193,15 +222,15 @@ constexpr double root_tolerance() { return 512 * kUnitRoundoff; }
 /// The hit at t > 0. Edges and vertices belong to the triangle; a ray within its plane, and a
 /// triangle without area, are never hit.
 inline std::optional<Root> hit(const ExactRay& ray, const Triangle& triangle, StageCounts& counts) {
-    const detail::LineTest test = detail::line_test(ray, triangle);
+    const detail::LineTest test = detail::line_test(ray, triangle, counts);
     if (test == detail::LineTest::kMisses) return std::nullopt;
-    return detail::triangle_hit(ray, triangle, test, counts);
+    return detail::triangle_hit(ray, triangle, counts);
 }
 
 /// The smallest root > 0, tangency included. Without radius never hit.
 inline std::optional<SphereHit> hit(const ExactRay& ray, const Sphere& sphere,
                                     StageCounts& counts) {
-    if (detail::surely_missed(ray, sphere, 0)) return std::nullopt;
+    if (detail::surely_missed(ray, sphere)) return std::nullopt;
     return detail::sphere_hit(ray, sphere, counts);
 }
 std::optional<SphereHit> hit(const ExactRay& ray, const Ellipsoid& ellipsoid, StageCounts& counts);
@@ -223,13 +252,13 @@ SurfacePoint surface_point(const ExactRay& ray, const Ellipsoid& ellipsoid, Sphe
 /// exactly.
 inline bool blocks(const ExactRay& shadow, double end, double origin_error,
                    const Triangle& triangle, StageCounts& counts) {
-    const detail::LineTest test = detail::line_test(shadow, triangle);
+    const detail::LineTest test = detail::line_test(shadow, triangle, counts);
     if (test == detail::LineTest::kMisses) return false;
-    return detail::triangle_blocks(shadow, end, origin_error, triangle, test, counts);
+    return detail::triangle_blocks(shadow, end, origin_error, triangle, counts);
 }
 inline bool blocks(const ExactRay& shadow, double end, double origin_error, const Sphere& sphere,
                    bool origin_on_it, StageCounts& counts) {
-    if (!origin_on_it && detail::surely_missed(shadow, sphere, origin_error)) return false;
+    if (!origin_on_it && detail::surely_clear(shadow, sphere, origin_error)) return false;
     return detail::sphere_blocks(shadow, end, origin_error, sphere, origin_on_it, counts);
 }
 bool blocks(const ExactRay& shadow, double end, double origin_error, const Ellipsoid& ellipsoid,
