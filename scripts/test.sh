@@ -12,7 +12,7 @@ log=build/release/test.log
 status=0
 ctest --preset release -j "$(nproc)" "$@" >"$log" 2>&1 || status=$?
 if [ $status -ne 0 ]; then
-    cat "$log"
+    grep -vE '^ +Start |^ *[0-9]+/[0-9]+ Test .* Passed ' "$log"
     exit $status
 fi
 grep -E '^[0-9]+% tests passed|^Total Test time' "$log"
