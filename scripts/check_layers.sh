@@ -1,0 +1,73 @@
+#!/usr/bin/env bash
+# Checks the directions of #include between the rooms, and that each third-party library is
+# included in exactly one .cpp: scripts/check_layers.sh [root of the project]
+set -euo pipefail
+cd -- "${1:-$(dirname -- "${BASH_SOURCE[0]}")/..}"
+
+# A room and what it may see beside itself. octree sees only math.
+declare -A may_see=(
+    [math]=""
+    [geometry]="math"
+    [octree]="math"
+    [image]="math"
+    [scene]="math geometry"
+    [render]="math geometry octree image scene"
+    [app]="math geometry octree image scene render"
+)
+# A library's headers and the one room that may include them.
+libraries=(
+    "boost/property_tree scene"
+    "nlopt octree"
+    "boost/chrono app"
+    "boost/program_options app"
+    "nlohmann app"
+)
+include='^[[:space:]]*#[[:space:]]*include[[:space:]]*'
+faults=0
+
+fault() {
+    echo "$1"
+    faults=$((faults + 1))
+}
+
+for room in $(ls include/nuvo src | grep -v : | sort -u); do
+    if [ -z "${may_see[$room]+known}" ]; then
+        fault "$room: a room that scripts/check_layers.sh does not know"
+        continue
+    fi
+    for folder in "include/nuvo/$room" "src/$room"; do
+        [ -d "$folder" ] || continue
+        while IFS=: read -r file line text; do
+            seen=$(sed -E 's|.*"nuvo/([^/"]+)/.*|\1|' <<<"$text")
+            case " $room ${may_see[$room]} " in
+                *" $seen "*) ;;
+                *) fault "$file:$line: $room must not include $seen" ;;
+            esac
+        done < <(grep -rnE "$include\"nuvo/" "$folder" || true)
+        # Not through the back door of another room's private headers either.
+        while IFS=: read -r file line _; do
+            fault "$file:$line: includes by a path with .."
+        done < <(grep -rnE "$include\"[^\"]*\.\./" "$folder" || true)
+    done
+done
+
+for entry in "${libraries[@]}"; do
+    read -r header room <<<"$entry"
+    mapfile -t users < <(grep -rlE "$include<$header[/.]" include src main.cpp | sort)
+    case ${#users[@]} in
+        1)
+            case ${users[0]} in
+                "src/$room/"*.cpp) ;;
+                *) fault "${users[0]}: <$header> belongs in a .cpp of src/$room" ;;
+            esac ;;
+        *) fault "<$header> must be included in exactly one .cpp, not ${#users[@]}: ${users[*]}" ;;
+    esac
+done
+
+known=$(printf '%s\n' "${libraries[@]}" | cut -d' ' -f1 | paste -sd'|')
+while IFS=: read -r file line text; do
+    fault "$file:$line: a third-party header that scripts/check_layers.sh does not know: $text"
+done < <(grep -rnE "$include<(boost|nlopt|nlohmann|gtest|gmock|png|hwy|tbb)" include src main.cpp |
+    grep -vE "<($known)[/.]" || true)
+
+[ $faults -eq 0 ] || exit 1

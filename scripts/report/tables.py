@@ -1,0 +1,236 @@
+"""The thesis' tables from the reports of scripts/alltests.sh: ours beside the published figures.
+
+Reads DIR/raw/SETTING-SCENE-TYPE-ROUND.json, prints the tables and writes DIR/results.json and
+DIR/results.csv. Standard library only.
+"""
+
+import argparse
+import csv
+import json
+import pathlib
+import platform
+import statistics
+import sys
+
+TYPES = ("uniform", "nonuniform")
+
+# Thesis 5.8, i5-2500K at 1920 x 1080: depth, voxels, intersection tests, voxel searches, seconds.
+PUBLISHED = {
+    "teapot": {"uniform": (1, 1, 529548, 284970, 213.763),
+               "nonuniform": (1, 1, 529548, 284970, 213.912)},
+    "test1": {"uniform": (9, 8653, 21843910, 27018572, 10.379),
+              "nonuniform": (6, 5552, 21789021, 26713679, 9.899)},
+    "test2": {"uniform": (9, 9381, 17183358, 46117742, 13.850),
+              "nonuniform": (8, 7064, 11235896, 45362845, 12.533)},
+    "test3": {"uniform": (8, 9178, 33225320, 25603151, 8.607),
+              "nonuniform": (8, 8422, 24876977, 25089438, 8.382)},
+    "test4": {"uniform": (9, 22807, 5954439, 23818331, 21.539),
+              "nonuniform": (9, 15401, 6190599, 21231578, 14.386)},
+}
+PUBLISHED_RAYS = 1920 * 1080
+PUBLISHED_SHAPES = {"teapot": 1, "test1": 728, "test2": 1000, "test3": 5985, "test4": 3200}
+
+TITLES = {"teapot": "Base test: Utah teapot", "test1": "Test 1: uniform diamonds",
+          "test2": "Test 2: random diamonds", "test3": "Test 3: concentric spheres",
+          "test4": "Test 4: clumped diamonds"}
+SETTINGS = {
+    "thesis-12": "thesis profile, a diamond counts as 12 (--profile=thesis --costs=thesis:12)",
+    "thesis-8": "thesis profile, a diamond counts as its 8 triangles (--profile=thesis "
+                "--costs=thesis)",
+    "exact": "exact profile (--profile=exact)",
+}
+
+# Row title, key, format. Only "time taken" has no exact value.
+ROWS = (
+    ("tree depth", "depth", "{:,.0f}"),
+    ("voxels", "voxels", "{:,.0f}"),
+    ("voxels per shape", "voxels_per_shape", "{:,.2f}"),
+    ("intersection tests", "tests", "{:,.0f}"),
+    ("intersections per ray", "tests_per_ray", "{:,.2f}"),
+    ("voxel searches", "searches", "{:,.0f}"),
+    ("searches per ray", "searches_per_ray", "{:,.2f}"),
+    ("time taken (s)", "seconds", "{:,.3f}"),
+    ("  of it building (s)", "build_seconds", "{:,.4f}"),
+    ("  of it tracing (s)", "trace_seconds", "{:,.4f}"),
+)
+
+
+def published_figures(scene, octree_type):
+    depth, voxels, tests, searches, seconds = PUBLISHED[scene][octree_type]
+    return {"depth": depth, "voxels": voxels, "tests": tests, "searches": searches,
+            "seconds": seconds, "voxels_per_shape": voxels / PUBLISHED_SHAPES[scene],
+            "tests_per_ray": tests / PUBLISHED_RAYS, "searches_per_ray": searches / PUBLISHED_RAYS}
+
+
+def our_figures(reports):
+    """One row of results from the reports of all rounds of one setting, scene and type."""
+    first = reports[0]
+    for report in reports[1:]:
+        for exact in ("tree", "counts", "scene"):
+            if report[exact] != first[exact]:
+                sys.exit(f"tables.py: {report['file']}: {exact} differs from one run to the next")
+    build = [seconds for report in reports for seconds in report["build_seconds"]]
+    trace = [seconds for report in reports for seconds in report["trace_seconds"]]
+    frames = [b + t for b, t in zip(build, trace)]
+    counts, tree = first["counts"], first["tree"]
+    rays = counts["primary_rays"]
+    return {
+        "depth": tree["depth"], "voxels": tree["voxels"], "references": tree["references"],
+        "memory_bytes": tree["memory_bytes"],
+        "voxels_per_shape": tree["voxels"] / max(1, first["scene"]["objects"]),
+        "tests": counts["intersection_tests"], "searches": counts["voxel_searches"],
+        "tests_per_ray": counts["intersection_tests"] / rays,
+        "searches_per_ray": counts["voxel_searches"] / rays,
+        "repetitions": len(frames),
+        "seconds": statistics.fmean(frames), "seconds_median": statistics.median(frames),
+        "seconds_least": min(frames), "seconds_most": max(frames),
+        "build_seconds": statistics.fmean(build), "trace_seconds": statistics.fmean(trace),
+        "user_clock_seconds": sum(report["user_seconds"] for report in reports) / len(frames),
+    }
+
+
+def change(before, after):
+    """Change in percent; None where there is nothing to compare."""
+    if before is None or after is None:
+        return None
+    if before == 0:
+        return 0.0 if after == 0 else None
+    return 100 * (after - before) / before
+
+
+def percent(value):
+    return "" if value is None else f"{value:+.2f} %"
+
+
+def load(folder):
+    """{(setting, scene, type): [report, ...]} in the order of the rounds."""
+    groups = {}
+    for path in sorted((folder / "raw").glob("*.json")):
+        setting_and_scene, octree_type, _ = path.stem.rsplit("-", 2)
+        setting, scene = setting_and_scene.rsplit("-", 1)
+        report = json.loads(path.read_text(encoding="utf-8"))
+        groups.setdefault((setting, scene, octree_type), []).append(report)
+    return groups
+
+
+# What depends on the number of pixels and is compared at the published size only.
+PIXEL_KEYS = {"tests", "searches", "seconds"}
+
+
+def print_table(scene, ours, is_published_size):
+    published = {t: published_figures(scene, t) for t in TYPES}
+    print(f"\n{TITLES[scene]}")
+    print(f"{'':22}| {'published':^39} | {'ours':^39} | ours against published")
+    print(f"{'':22}| {'uniform':>13} {'non-uniform':>13} {'change':>11} "
+          f"| {'uniform':>13} {'non-uniform':>13} {'change':>11} | {'uniform':>11} "
+          f"{'non-uniform':>11}")
+    for title, key, shape in ROWS:
+        cells = []
+        for figures in (published, ours):
+            values = [figures[t].get(key) for t in TYPES]
+            texts = ["" if v is None else shape.format(v) for v in values]
+            cells.append(f"{texts[0]:>13} {texts[1]:>13} {percent(change(*values)):>11}")
+        comparable = is_published_size or key not in PIXEL_KEYS
+        against = [percent(change(published[t].get(key), ours[t][key])) if comparable else ""
+                   for t in TYPES]
+        print(f"{title:22}| {cells[0]} | {cells[1]} | {against[0]:>11} {against[1]:>11}".rstrip())
+
+
+def checks(scene, ours, is_published_size):
+    """What a faithful run of the published program is held to: (claim, holds, figures)."""
+    published = {t: published_figures(scene, t) for t in TYPES}
+    for t in TYPES:
+        for key, name, bound in (("voxels", "voxels", 15), ("tests_per_ray", "tests per ray", 25),
+                                 ("searches_per_ray", "searches per ray", 25)):
+            off = change(published[t][key], ours[t][key])
+            yield (f"{t}: {name} within {bound} %", abs(off) <= bound, percent(off))
+        off = ours[t]["depth"] - published[t]["depth"]
+        yield (f"{t}: depth within 1", abs(off) <= 1, f"{off:+d}")
+        if is_published_size:
+            yield (f"{t}: a frame in less than the published time",
+                   ours[t]["seconds"] < published[t]["seconds"],
+                   f"{ours[t]['seconds']:.3f} s against {published[t]['seconds']:.3f} s")
+    for key, name in (("depth", "depth"), ("voxels", "voxels"), ("tests", "tests"),
+                      ("searches", "searches"), ("seconds", "time")):
+        theirs = change(published["uniform"][key], published["nonuniform"][key])
+        if abs(theirs) <= 2 or (key == "seconds" and not is_published_size):
+            continue
+        mine = change(ours["uniform"][key], ours["nonuniform"][key])
+        yield (f"change of {name} has the published sign", mine * theirs > 0,
+               f"{percent(mine)} against {percent(theirs)}")
+
+
+def write_results(folder, results, groups, environment):
+    columns = ["setting", "scene", "type"]
+    columns += list(next(iter(results.values())))
+    with open(folder / "results.csv", "w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file)
+        writer.writerow(columns)
+        for key, figures in results.items():
+            writer.writerow([*key, *figures.values()])
+    document = {
+        "environment": environment,
+        "published": {s: {t: published_figures(s, t) for t in TYPES} for s in PUBLISHED},
+        "results": [{"setting": key[0], "scene": key[1], "type": key[2], **figures,
+                     "runs": groups[key]} for key, figures in results.items()],
+    }
+    text = json.dumps(document, indent=1, allow_nan=False) + "\n"
+    (folder / "results.json").write_text(text, encoding="utf-8")
+
+
+def processor_name():
+    try:
+        for line in pathlib.Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines():
+            if line.startswith("model name"):
+                return line.split(":", 1)[1].strip()
+    except OSError:
+        pass
+    return platform.processor() or platform.machine()
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("folder", type=pathlib.Path)
+    parser.add_argument("--commit", default="unknown")
+    parser.add_argument("--compiler", default="unknown")
+    parser.add_argument("--priority", default="default")
+    arguments = parser.parse_args()
+
+    groups = load(arguments.folder)
+    if not groups:
+        sys.exit(f"tables.py: {arguments.folder / 'raw'}: no reports")
+    results = {key: our_figures(reports) for key, reports in groups.items()}
+    any_report = next(iter(groups.values()))[0]
+    size = any_report["resolution"]
+    environment = {"nuvo": any_report["nuvo"], "commit": arguments.commit,
+                   "compiler": arguments.compiler, "processor": processor_name(),
+                   "system": platform.platform(), "priority": arguments.priority,
+                   "resolution": size}
+
+    print(f"Ours: {environment['processor']}, {environment['compiler']}, "
+          f"{size['width']} x {size['height']}. Published: i5-2500K, 1920 x 1080.")
+    print("Times: mean of build and trace by the fine clock; every raw time is in results.json.")
+    is_published_size = size == {"width": 1920, "height": 1080}
+    if not is_published_size:
+        print("The published totals and times are of 1920 x 1080 and not compared here.")
+    for setting, title in SETTINGS.items():
+        scenes = [s for s in PUBLISHED if all((setting, s, t) in results for t in TYPES)]
+        if not scenes:
+            continue
+        print(f"\n=== {title}")
+        for scene in scenes:
+            ours = {t: results[setting, scene, t] for t in TYPES}
+            print_table(scene, ours, is_published_size)
+        if setting == "exact":
+            continue
+        print("\nAgainst the published figures")
+        for scene in scenes:
+            ours = {t: results[setting, scene, t] for t in TYPES}
+            for claim, holds, figures in checks(scene, ours, is_published_size):
+                print(f"  {'yes' if holds else 'NO ':3} {scene} {claim}: {figures}")
+    write_results(arguments.folder, results, groups, environment)
+    print(f"\nresults: {arguments.folder / 'results.json'}, {arguments.folder / 'results.csv'}")
+
+
+if __name__ == "__main__":
+    main()
