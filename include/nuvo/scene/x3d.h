@@ -17,9 +17,10 @@ class Error : public std::runtime_error {
 
 /// What a file may ask for, counted before memory is taken.
 struct Limits {
-    std::size_t depth = 4096;           ///< nested elements
-    std::size_t elements = 10'000'000;  ///< elements in the file
+    std::size_t depth = 4096;           ///< nested elements, in the file and after USE is expanded
+    std::size_t elements = 10'000'000;  ///< elements, in the file and after USE is expanded
     std::size_t shapes = 2'000'000;     ///< Shapes after USE is expanded
+    std::size_t vertices = 20'000'000;  ///< points, normals and indices of all meshes, USE expanded
 };
 
 /// NavigationInfo's headlight: `kAuto` follows the file and, where it is silent, lights only a

@@ -1,0 +1,41 @@
+#include "nuvo/scene/background.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nuvo {
+
+namespace {
+
+/// The colour `angle` radians from the pole: linear in angle between the bands, and beyond the last
+/// angle the last colour.
+Color gradient(const std::vector<Color>& colors, const std::vector<double>& angles, double angle) {
+    const std::size_t bands = std::min(angles.size(), colors.size() - 1);
+    double lower = 0;
+    for (std::size_t i = 0; i < bands; ++i) {
+        const double upper = angles[i];
+        if (angle <= upper) {
+            if (!(upper > lower)) return colors[i + 1];
+            const double part = (angle - lower) / (upper - lower);
+            return colors[i] * (1 - part) + colors[i + 1] * part;
+        }
+        lower = upper;
+    }
+    return colors[bands];
+}
+
+}  // namespace
+
+Color Background::color(const Vector3& direction) const {
+    const double y = std::clamp(direction.y, -1.0, 1.0);
+    if (sky_color.size() == 1 && ground_color.size() == 1 && sky_angle.empty() &&
+        ground_angle.empty())
+        return sky_color[0] * ((y + 1) / 2) + ground_color[0] * ((1 - y) / 2);  // [eq. 36]
+    // The ground is a hemisphere laid over the sky.
+    if (!ground_color.empty() && y <= 0) return gradient(ground_color, ground_angle, std::acos(-y));
+    if (sky_color.empty()) return {};
+    if (sky_color.size() == 1) return sky_color[0];
+    return gradient(sky_color, sky_angle, std::acos(y));
+}
+
+}  // namespace nuvo

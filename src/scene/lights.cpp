@@ -1,0 +1,65 @@
+#include "lights.h"
+
+#include <numbers>
+
+namespace nuvo::x3d {
+
+namespace {
+
+constexpr Range kQuarterTurn{0, std::numbers::pi / 2};
+
+/// Before 4.0 an intensity is at most 1 (ISO/IEC 19775-1 clause 17).
+Range intensity_range(Version version) { return version < Version{4, 0} ? kUnit : kNotNegative; }
+
+/// Lights without a `global` field (before 3.1) light everything; from then on its default depends
+/// on the kind.
+bool is_scoped(Light::Kind kind, const Fields& fields, Version version) {
+    if (version < Version{3, 1}) return false;
+    return !fields.boolean("global", kind != Light::Kind::kDirectional);
+}
+
+Vector3 read_direction(const Fields& fields, const Placement& placement) {
+    const Vector3 direction =
+        normalized(placement.to_world.vector(fields.vector("direction", {0, 0, -1})));
+    if (direction == Vector3{}) fields.warn("direction", "of length zero lighting nothing");
+    return direction;
+}
+
+void read_reach(const Fields& fields, const Placement& placement, Light& light) {
+    light.location = placement.to_world.point(fields.vector("location", {}));
+    light.attenuation = fields.clamped_vector("attenuation", {1, 0, 0}, kNotNegative);
+    const double radius = fields.number("radius", 100);
+    if (radius < 0) fields.fail("radius", "is negative");
+    light.radius = radius * placement.length_scale;
+    if (placement.length_scale > 0)
+        light.units_per_world = 1 / placement.length_scale;
+    else
+        fields.warn("radius", "shrunk to zero by a singular transform");
+}
+
+void read_cone(const Fields& fields, Version version, Light& light) {
+    const double beam_width = version < Version{4, 0} ? 0.785398 : 0.589049;
+    light.beam_width = fields.clamped_number("beamWidth", beam_width, kQuarterTurn);
+    light.cut_off_angle = fields.clamped_number("cutOffAngle", 1.570796, kQuarterTurn);
+}
+
+}  // namespace
+
+std::optional<PlacedLight> read_light(Light::Kind kind, const Fields& fields,
+                                      const Placement& placement, Version version) {
+    const bool on = fields.boolean("on", true);
+    PlacedLight placed;
+    Light& light = placed.light;
+    light.kind = kind;
+    light.color = fields.clamped_vector("color", {1, 1, 1}, kUnit);
+    light.intensity = fields.clamped_number("intensity", 1, intensity_range(version));
+    light.ambient_intensity = fields.clamped_number("ambientIntensity", 0, kUnit);
+    if (kind != Light::Kind::kPoint) light.direction = read_direction(fields, placement);
+    if (kind != Light::Kind::kDirectional) read_reach(fields, placement, light);
+    if (kind == Light::Kind::kSpot) read_cone(fields, version, light);
+    placed.scoped = is_scoped(kind, fields, version);
+    if (!on) return std::nullopt;
+    return placed;
+}
+
+}  // namespace nuvo::x3d

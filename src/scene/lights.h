@@ -1,0 +1,22 @@
+#pragma once
+
+#include <optional>
+
+#include "fields.h"
+#include "nuvo/scene/light.h"
+#include "placement.h"
+#include "version.h"
+
+namespace nuvo::x3d {
+
+struct PlacedLight {
+    Light light;
+    bool scoped = false;  ///< lights only its own group and what is below it
+};
+
+/// Reads a DirectionalLight, PointLight or SpotLight in world space, its scope still open; nothing
+/// when it is off.
+std::optional<PlacedLight> read_light(Light::Kind kind, const Fields& fields,
+                                      const Placement& placement, Version version);
+
+}  // namespace nuvo::x3d

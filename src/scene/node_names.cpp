@@ -1,0 +1,82 @@
+#include "node_names.h"
+
+#include <algorithm>
+#include <array>
+
+namespace nuvo::x3d {
+
+namespace {
+
+constexpr auto kSilent = std::to_array<std::string_view>(
+    {"ExternProtoDeclare", "MetadataBoolean", "MetadataDouble", "MetadataFloat", "MetadataInteger",
+     "MetadataSet", "MetadataString", "MultiTextureCoordinate", "ProtoDeclare", "TextureCoordinate",
+     "TextureCoordinate3D", "TextureCoordinate4D", "TextureCoordinateGenerator", "WorldInfo",
+     "component", "head", "meta", "unit"});
+
+constexpr auto kNodes = std::to_array<std::string_view>({"Anchor",
+                                                         "Appearance",
+                                                         "Background",
+                                                         "Billboard",
+                                                         "Box",
+                                                         "Collision",
+                                                         "Color",
+                                                         "ColorRGBA",
+                                                         "Cone",
+                                                         "Coordinate",
+                                                         "CoordinateDouble",
+                                                         "Cylinder",
+                                                         "DirectionalLight",
+                                                         "ElevationGrid",
+                                                         "Group",
+                                                         "ImageTexture",
+                                                         "IndexedFaceSet",
+                                                         "IndexedLineSet",
+                                                         "IndexedTriangleFanSet",
+                                                         "IndexedTriangleSet",
+                                                         "IndexedTriangleStripSet",
+                                                         "Inline",
+                                                         "LOD",
+                                                         "Material",
+                                                         "NavigationInfo",
+                                                         "Normal",
+                                                         "PhysicalMaterial",
+                                                         "PointLight",
+                                                         "PointSet",
+                                                         "Scene",
+                                                         "Shape",
+                                                         "Sphere",
+                                                         "SpotLight",
+                                                         "StaticGroup",
+                                                         "Switch",
+                                                         "Text",
+                                                         "Transform",
+                                                         "TriangleFanSet",
+                                                         "TriangleSet",
+                                                         "TriangleStripSet",
+                                                         "UnlitMaterial",
+                                                         "Viewpoint",
+                                                         "X3D"});
+
+char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+bool equal_but_for_case(std::string_view a, std::string_view b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [](char x, char y) { return lower(x) == lower(y); });
+}
+
+}  // namespace
+
+bool is_silent(std::string_view name) {
+    return std::find(kSilent.begin(), kSilent.end(), name) != kSilent.end();
+}
+
+void warn_not_drawn(const Element& element, Messages& messages) {
+    const auto* node = std::find_if(kNodes.begin(), kNodes.end(), [&](std::string_view known) {
+        return known != element.name && equal_but_for_case(known, element.name);
+    });
+    std::string what = "not drawn";
+    if (node != kNodes.end()) what += ", X3D spells it " + std::string(*node);
+    messages.warn(excerpt(element.name), what, element);
+}
+
+}  // namespace nuvo::x3d

@@ -1,0 +1,184 @@
+#include "scene_reader.h"
+
+#include <cmath>
+#include <unordered_map>
+
+#include "node_names.h"
+#include "view.h"
+
+namespace nuvo::x3d {
+
+namespace {
+
+/// Collision's proxy is not to be drawn.
+bool is_proxy(const Element& child) {
+    const std::string* field = child.find("containerField");
+    return field != nullptr && *field == "proxy";
+}
+
+}  // namespace
+
+SceneReader::Handler SceneReader::handler_of(std::string_view name) {
+    static const std::unordered_map<std::string_view, Handler> handlers{
+        {"Anchor", &SceneReader::read_group},
+        {"Background", &SceneReader::read_background_node},
+        {"Billboard", &SceneReader::read_group},
+        {"Collision", &SceneReader::read_group},
+        {"DirectionalLight", &SceneReader::read_directional_light},
+        {"Group", &SceneReader::read_group},
+        {"NavigationInfo", &SceneReader::read_navigation_info},
+        {"PointLight", &SceneReader::read_point_light},
+        {"Shape", &SceneReader::read_shape},
+        {"SpotLight", &SceneReader::read_spot_light},
+        {"StaticGroup", &SceneReader::read_group},
+        {"Transform", &SceneReader::read_transform},
+        {"Viewpoint", &SceneReader::read_viewpoint_node},
+    };
+    const auto found = handlers.find(name);
+    return found == handlers.end() ? nullptr : found->second;
+}
+
+Scene SceneReader::read(const Element& scene, Headlight headlight) {
+    read_children(scene, {});
+    for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
+        const LightScope& scope = scene_.lights[i].scope;
+        if (scope.first >= scope.last)
+            messages_.warn(light_nodes_[i]->name, "reaching no shape", *light_nodes_[i]);
+    }
+    add_headlight(headlight);
+    scene_.materials = materials_.take();
+    scene_.warnings = messages_.warnings();
+    return std::move(scene_);
+}
+
+void SceneReader::read_children(const Element& parent, const Placement& placement) {
+    Group group{placement, {}};
+    const std::size_t first_object = scene_.objects.size();
+    for (const Element& child : parent.children) read_child(child, group);
+    close_scopes(group, first_object);
+}
+
+void SceneReader::read_child(const Element& child, Group& group) {
+    const Handler handler = handler_of(child.name);
+    if (handler != nullptr) {
+        if (!is_proxy(child)) (this->*handler)(child.node(), group);
+    } else if (!is_silent(child.name)) {
+        warn_not_drawn(child, messages_);
+    }
+}
+
+void SceneReader::read_group(const Element& node, Group& group) {
+    read_children(node, group.placement);
+}
+
+void SceneReader::read_transform(const Element& node, Group& group) {
+    read_children(node, group.placement.inside(Fields(node, messages_)));
+}
+
+void SceneReader::close_scopes(const Group& group, std::size_t first_object) {
+    for (const std::size_t light : group.scoped_lights)
+        scene_.lights[light].scope = {static_cast<std::uint32_t>(first_object),
+                                      static_cast<std::uint32_t>(scene_.objects.size())};
+}
+
+void SceneReader::read_shape(const Element& node, Group& group) {
+    const auto shape_index = static_cast<std::uint32_t>(scene_.shape_count++);
+    const Element* appearance = nullptr;
+    const Element* geometry = nullptr;
+    for (const Element& child : node.children) {
+        if (is_silent(child.name)) continue;
+        if (child.name == "Appearance" && appearance == nullptr)
+            appearance = &child.node();
+        else if (child.name != "Appearance" && geometry == nullptr)
+            geometry = &child.node();
+        else
+            messages_.warn(excerpt(child.name), "beyond the first of its Shape left out", child);
+    }
+    const std::optional<std::uint32_t> material = materials_.look_up(appearance);
+    if (!material || geometry == nullptr) return;
+    std::optional<Shape> shape = read_geometry(*geometry, group.placement);
+    if (!shape) return;
+    const bool solid = Fields(*geometry, messages_).boolean("solid", true);
+    scene_.objects.push_back({std::move(*shape), *material, shape_index, solid});
+}
+
+std::optional<Shape> SceneReader::read_geometry(const Element& node, const Placement& placement) {
+    if (node.name == "Sphere") return read_sphere(node, placement);
+    if (is_mesh(node.name)) return read_mesh(node, placement, messages_, vertices_);
+    warn_not_drawn(node, messages_);
+    return std::nullopt;
+}
+
+std::optional<Shape> SceneReader::read_sphere(const Element& node, const Placement& placement) {
+    const Fields fields(node, messages_);
+    const double radius = fields.number("radius", 1);
+    if (radius < 0) fields.fail("radius", "is negative");
+    if (radius == 0) {
+        fields.warn("radius", "of zero: not drawn");
+        return std::nullopt;
+    }
+    const Point3 center = placement.to_world.translation;
+    const double world_radius = radius * placement.length_scale;
+    const Matrix3& linear = placement.to_world.linear;
+    if (!is_finite(center) || !std::isfinite(world_radius) || !is_finite(linear.row[0]) ||
+        !is_finite(linear.row[1]) || !is_finite(linear.row[2]))
+        fields.fail("radius", "beyond the range of double in world space");
+    if (placement.singular || world_radius == 0) {
+        messages_.warn(node.name, "flattened by a scale of zero: not drawn", node);
+        return std::nullopt;
+    }
+    if (placement.uniform) return Sphere{center, world_radius};
+    return Ellipsoid{center, linear, radius};
+}
+
+void SceneReader::read_directional_light(const Element& node, Group& group) {
+    add_light(Light::Kind::kDirectional, node, group);
+}
+
+void SceneReader::read_point_light(const Element& node, Group& group) {
+    add_light(Light::Kind::kPoint, node, group);
+}
+
+void SceneReader::read_spot_light(const Element& node, Group& group) {
+    add_light(Light::Kind::kSpot, node, group);
+}
+
+void SceneReader::add_light(Light::Kind kind, const Element& node, Group& group) {
+    const Fields fields(node, messages_);
+    const std::optional<PlacedLight> placed = read_light(kind, fields, group.placement, version_);
+    if (!placed) return;
+    const Light& light = placed->light;
+    if (!is_finite(light.location) || !is_finite(light.direction) || !std::isfinite(light.radius) ||
+        !std::isfinite(light.units_per_world))
+        fields.fail("", "beyond the range of double in world space");
+    if (placed->scoped) group.scoped_lights.push_back(scene_.lights.size());
+    scene_.lights.push_back(light);
+    light_nodes_.push_back(&node);
+}
+
+void SceneReader::read_viewpoint_node(const Element& node, Group& group) {
+    if (has_viewpoint_) return;
+    has_viewpoint_ = true;
+    scene_.camera = read_viewpoint(Fields(node, messages_), group.placement);
+}
+
+void SceneReader::read_background_node(const Element& node, Group&) {
+    if (has_background_) return;
+    has_background_ = true;
+    scene_.background = read_background(Fields(node, messages_));
+}
+
+void SceneReader::read_navigation_info(const Element& node, Group&) {
+    if (!headlight_) headlight_ = Fields(node, messages_).boolean("headlight", true);
+}
+
+void SceneReader::add_headlight(Headlight headlight) {
+    const bool automatic = headlight_.value_or(scene_.lights.empty());
+    if (headlight == Headlight::kOff || (headlight == Headlight::kAuto && !automatic)) return;
+    Light light;
+    light.direction = scene_.camera.forward;
+    light.casts_shadow = false;
+    scene_.lights.push_back(light);
+}
+
+}  // namespace nuvo::x3d

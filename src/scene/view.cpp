@@ -1,0 +1,68 @@
+#include "view.h"
+
+#include <algorithm>
+#include <numbers>
+
+namespace nuvo::x3d {
+
+namespace {
+
+/// Makes a list of angles fit its colours: one fewer, never decreasing.
+void match(const Fields& fields, std::string_view angle_field, std::vector<Color>& colors,
+           std::vector<double>& angles) {
+    const std::size_t bands = colors.empty() ? 0 : colors.size() - 1;
+    if (angles.size() != bands) {
+        fields.warn(angle_field, "not one fewer than the colors: what is over is left out");
+        angles.resize(std::min(angles.size(), bands));
+        colors.resize(colors.empty() ? 0 : angles.size() + 1);
+    }
+    for (std::size_t i = 1; i < angles.size(); ++i) {
+        if (angles[i] >= angles[i - 1]) continue;
+        fields.warn(angle_field, "decreasing: raised to the one before");
+        angles[i] = angles[i - 1];
+    }
+}
+
+}  // namespace
+
+Camera read_viewpoint(const Fields& fields, const Placement& placement) {
+    Camera camera;
+    const Affine3& to_world = placement.to_world;
+    camera.position = to_world.point(fields.vector("position", camera.position));
+    camera.field_of_view_rad = fields.number("fieldOfView", camera.field_of_view_rad);
+    if (!(camera.field_of_view_rad > 0 && camera.field_of_view_rad < std::numbers::pi))
+        fields.fail("fieldOfView", "is not between 0 and pi");
+    const Matrix3 orientation = fields.rotation("orientation");
+    const Vector3 forward = normalized(to_world.vector(orientation * Vector3{0, 0, -1}));
+    const Vector3 right =
+        normalized(cross(forward, normalized(to_world.vector(orientation * Vector3{0, 1, 0}))));
+    if (!is_finite(camera.position) || !is_finite(forward) || !is_finite(right))
+        fields.fail("position", "beyond the range of double in world space");
+    if (right == Vector3{}) {
+        fields.warn("orientation", "lost in a singular transform");
+        return camera;
+    }
+    camera.forward = forward;
+    camera.right = right;
+    camera.up = cross(right, forward);
+    return camera;
+}
+
+Background read_background(const Fields& fields) {
+    Background background;
+    if (fields.has("skyColor")) background.sky_color = fields.colors("skyColor");
+    if (background.sky_color.empty()) background.sky_color = {{0, 0, 0}};
+    background.sky_angle = fields.clamped_numbers("skyAngle", {0, std::numbers::pi});
+    background.ground_color = fields.colors("groundColor");
+    background.ground_angle = fields.clamped_numbers("groundAngle", {0, std::numbers::pi / 2});
+    match(fields, "skyAngle", background.sky_color, background.sky_angle);
+    match(fields, "groundAngle", background.ground_color, background.ground_angle);
+    for (const char* picture :
+         {"backUrl", "bottomUrl", "frontUrl", "leftUrl", "rightUrl", "topUrl"})
+        if (const std::string* url = fields.element().find(picture);
+            url != nullptr && !url->empty())
+            fields.warn(picture, "not drawn");
+    return background;
+}
+
+}  // namespace nuvo::x3d
