@@ -26,7 +26,7 @@ constexpr std::string_view kUsage =
     "       testfile_generator --all --out=DIR [--seed=N]     every scene, to DIR/NAME.x3d\n"
     "       testfile_generator --list                         the scenes\n"
     "       testfile_generator -h                             this text\n"
-    "The same seed (a whole number below 2^64, 1 unless given) gives the same bytes everywhere.\n";
+    "The same seed (a whole number below 2^64, 2 unless given) gives the same bytes everywhere.\n";
 
 /// The command line is wrong: the text says how.
 struct UsageError : std::runtime_error {

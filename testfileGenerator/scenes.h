@@ -15,8 +15,8 @@ struct Scene {
     std::string (*write)(std::uint64_t seed);
 };
 
-/// The seed of the files in testfiles/.
-inline constexpr std::uint64_t kDefaultSeed = 1;
+/// The seed of the files in testfiles/ (README.md says why it is this one).
+inline constexpr std::uint64_t kDefaultSeed = 2;
 
 /// Every scene, in the order of the thesis.
 std::span<const Scene> all_scenes();

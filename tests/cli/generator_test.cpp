@@ -273,14 +273,14 @@ TEST(Generator, LeavesTheMiddleOfTest1ToTheLight) {
 
 TEST(Generator, AnotherSeedChangesScenesOfChanceAndNoOthers) {
     for (const std::string name : {"test2", "test3", "test4"}) {
-        EXPECT_TRUE(generate(name + " --seed=1").text == test_file(name)) << name;
-        const std::string other = generate(name + " --seed=2").text;
+        EXPECT_TRUE(generate(name + " --seed=2").text == test_file(name)) << name;
+        const std::string other = generate(name + " --seed=1").text;
         EXPECT_FALSE(other == test_file(name)) << name;
         EXPECT_EQ(occurrences(other, "<Shape>"), occurrences(test_file(name), "<Shape>"));
-        EXPECT_TRUE(generate(name + " --seed=2").text == other) << name;
+        EXPECT_TRUE(generate(name + " --seed=1").text == other) << name;
     }
     for (const std::string name : {"appendixE", "test1", "teapot"}) {
-        EXPECT_TRUE(generate(name + " --seed=2").text == test_file(name)) << name;
+        EXPECT_TRUE(generate(name + " --seed=1").text == test_file(name)) << name;
     }
     EXPECT_EQ(generate("test2 --seed=18446744073709551615").exit_code, 0);
 }
