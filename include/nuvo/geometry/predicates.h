@@ -19,7 +19,7 @@ namespace nuvo {
 
 /// Counts how often the cheap stage did not decide.
 struct StageCounts {
-    std::uint64_t wider = 0;  ///< tighter bounds were computed, in double
+    std::uint64_t wider = 0;  ///< tighter bounds were computed, in double or in 64 bits
     std::uint64_t exact = 0;  ///< exact arithmetic decided
 };
 
