@@ -20,7 +20,8 @@ class Image {
   public:
     Image() = default;
     Image(int width, int height)
-        : width_(width), height_(height),
+        : width_(width),
+          height_(height),
           pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {}
 
     int width() const { return width_; }
