@@ -36,12 +36,12 @@ class ExactKernel {
     static constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
     ExactKernel(const Scene& scene, const Primitives& primitives, std::optional<double> bias)
-        : store_(scene, primitives), bias_(bias) {}
+        : store_(scene, primitives), triangles_(triangle_bounds(scene, primitives)), bias_(bias) {}
 
     const PrimitiveSource& source(PrimitiveId id) const { return store_.source(id); }
     const StageCounts& stage_counts() const { return counts_; }
 
-    PreparedRay prepare(const Ray& ray) const { return ExactRay(ray); }
+    PreparedRay prepare(const Ray& ray) const { return ExactRay(ray, triangles_); }
     Ray walk_ray(const ExactRay& ray) const { return {ray.origin(), ray.direction()}; }
     Ray nudged_ray(const ExactRay& ray) const { return walk_ray(ray); }
 
@@ -72,8 +72,8 @@ class ExactKernel {
         const double error = bias_ ? 0 : surface.error;
         const auto from = bias_ ? std::nullopt : std::optional<PrimitiveId>(surface.primitive);
         if (light.kind == Light::Kind::kDirectional)
-            return {ExactRay(Ray{origin, -light.direction}), kInfinity, error, from};
-        return {ExactRay::between(origin, light.location), 1, error, from};
+            return {ExactRay(Ray{origin, -light.direction}, triangles_), kInfinity, error, from};
+        return {ExactRay::between(origin, light.location, triangles_), 1, error, from};
     }
 
     bool blocks(const Shadow& shadow, PrimitiveId id) const {
@@ -89,6 +89,17 @@ class ExactKernel {
     }
 
   private:
+    // Holds every triangle: one bound for all edge functions of a ray.
+    static Bounds3 triangle_bounds(const Scene& scene, const Primitives& primitives) {
+        Bounds3 all;
+        for (std::size_t i = 0; i < primitives.item_count(); ++i) {
+            const PrimitiveSource& first = primitives.sources[primitives.item_first[i]];
+            if (std::holds_alternative<TriangleMesh>(scene.objects[first.object].shape))
+                all = all.extended(primitives.item_boxes[i]);
+        }
+        return all;
+    }
+
     std::optional<Hit> hit_on(const ExactRay& ray, const Triangle& triangle, PrimitiveId id) const {
         const std::optional<Root> root = hit(ray, triangle, counts_);
         if (!root) return std::nullopt;
@@ -125,6 +136,7 @@ class ExactKernel {
     }
 
     PrimitiveStore<Triangle, Sphere, Ellipsoid> store_;
+    Bounds3 triangles_;
     std::optional<double> bias_;
     mutable StageCounts counts_;
 };
