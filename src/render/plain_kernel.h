@@ -25,6 +25,11 @@ class PlainKernel {
     using PlainEllipsoid = plain::LocalEllipsoid<T>;
     using Triangles = plain::Triangles<T>;
 
+    // Whether leaf items are more than single primitives.
+    static bool holds_runs(const Primitives& primitives) {
+        return primitives.item_count() < primitives.sources.size();
+    }
+
   public:
     using Scalar = T;
     using PreparedRay = RayT<T>;
@@ -46,7 +51,7 @@ class PlainKernel {
     static constexpr T kInfinity = std::numeric_limits<T>::infinity();
 
     PlainKernel(const Scene& scene, const Primitives& primitives, std::optional<double> bias)
-        : store_(scene, primitives), bias_(bias) {}
+        : store_(scene, primitives, Triangles(holds_runs(primitives))), bias_(bias) {}
 
     const PrimitiveSource& source(PrimitiveId id) const { return store_.source(id); }
 

@@ -1,20 +1,21 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "nuvo/render/primitives.h"
 
 namespace nuvo {
 
-/// The primitives' coordinates side by side, one array a kind, found by PrimitiveId. A kind that the
-/// scene lacks costs nothing. TriangleList takes Triangles by push_back; the other two types are
-/// made from Sphere and Ellipsoid.
+/// The primitives' coordinates side by side, one array a kind, found by PrimitiveId. A kind that
+/// the scene lacks costs nothing. TriangleList takes Triangles by push_back; the other two types
+/// are made from Sphere and Ellipsoid.
 template <typename TriangleList, typename SphereT, typename EllipsoidT>
 class PrimitiveStore {
   public:
-    PrimitiveStore(const Scene& scene, const Primitives& primitives)
-        : sources_(primitives.sources) {
+    PrimitiveStore(const Scene& scene, const Primitives& primitives, TriangleList empty = {})
+        : sources_(primitives.sources), triangles_(std::move(empty)) {
         slots_.reserve(sources_.size());
         for (const PrimitiveSource& source : sources_) add(scene.objects[source.object], source);
     }

@@ -15,43 +15,46 @@ struct Corners {
     Vec3<T> a, b, c;
 };
 
-/// Triangles by columns, so that the tests of several run side by side in one register. A first
-/// pass without branches finds candidates with the same operations as hit(); hit() decides them.
+/// A list of triangles. Where runs of them are tested it also keeps them by columns, so that
+/// several tests run side by side in one register: a first pass without branches finds candidates
+/// with the operations of hit(), which then decides them.
 template <typename T>
 class Triangles {
   public:
+    explicit Triangles(bool in_runs) : in_runs_(in_runs) {}
+
     void push_back(const Triangle& triangle) {
-        const Vec3<T> corner[3] = {Vec3<T>(triangle.a), Vec3<T>(triangle.b), Vec3<T>(triangle.c)};
+        corners_.push_back({Vec3<T>(triangle.a), Vec3<T>(triangle.b), Vec3<T>(triangle.c)});
+        if (!in_runs_) return;
+        const Corners<T>& c = corners_.back();
+        const Vec3<T> corner[3] = {c.a, c.b, c.c};
         for (std::size_t i = 0; i < 9; ++i)
             columns_[i].push_back(corner[i / 3][static_cast<int>(i % 3)]);
     }
-    std::size_t size() const { return columns_[0].size(); }
-    Corners<T> operator[](std::size_t i) const {
-        return {corner(i, 0), corner(i, 1), corner(i, 2)};
-    }
-    std::optional<Hit<T>> hit(const RayT<T>& ray, std::size_t i) const {
-        return plain::hit(ray, corner(i, 0), corner(i, 1), corner(i, 2));
-    }
+    std::size_t size() const { return corners_.size(); }
+    const Corners<T>& operator[](std::size_t i) const { return corners_[i]; }
 
     /// Calls `use(i, hit)` for each triangle of [first, last) that the ray hits, in order.
     template <typename Use>
     void for_each_hit(const RayT<T>& ray, std::size_t first, std::size_t last, Use&& use) const {
+        const auto decide = [&](std::size_t i) {
+            const Corners<T>& c = corners_[i];
+            if (const std::optional<Hit<T>> found = hit(ray, c.a, c.b, c.c)) use(i, *found);
+        };
+        if (!in_runs_) {
+            for (; first < last; ++first) decide(first);
+            return;
+        }
         std::uint8_t candidate[kBlock];
         for (; first < last; first += kBlock) {
             const std::size_t count = std::min(kBlock, last - first);
             if (!find_candidates(ray, first, count, candidate)) continue;
-            for (std::size_t i = 0; i < count; ++i) {
-                if (!candidate[i]) continue;
-                if (const std::optional<Hit<T>> found = hit(ray, first + i)) use(first + i, *found);
-            }
+            for (std::size_t i = 0; i < count; ++i)
+                if (candidate[i]) decide(first + i);
         }
     }
 
   private:
-    Vec3<T> corner(std::size_t i, std::size_t k) const {
-        return {columns_[3 * k][i], columns_[3 * k + 1][i], columns_[3 * k + 2][i]};
-    }
-
     static constexpr std::size_t kBlock = 64;
 
     // Moeller and Trumbore's tests of u and v, column by column.
@@ -86,6 +89,8 @@ class Triangles {
         return any != 0;
     }
 
+    bool in_runs_;
+    std::vector<Corners<T>> corners_;
     std::vector<T> columns_[9];  // a.x, a.y, a.z, b.x .. c.z
 };
 

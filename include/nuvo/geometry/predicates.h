@@ -77,7 +77,9 @@ class ExactRay {
     }
     /// Largest |component| that a rounded difference of a point of `scene` and `origin` can have.
     static double reach(const Point3& origin, const Bounds3& scene) {
-        return std::fmax(max_norm(scene.min - origin), max_norm(scene.max - origin));
+        const double low = max_norm(scene.min - origin);
+        const double high = max_norm(scene.max - origin);
+        return low > high ? low : high;
     }
     ExactRay(const Point3& origin, const Vector3& direction, const Vector3& tail, double reach)
         : origin_(origin),

@@ -66,10 +66,15 @@ constexpr Vec3<T> cross(const Vec3<T>& a, const Vec3<T>& b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// Largest absolute component.
+/// Largest absolute component; a NaN may be lost. (Comparisons compile to one
+/// instruction each, std::fmax to a call.)
 template <typename T>
 T max_norm(const Vec3<T>& v) {
-    return std::fmax(std::fabs(v.x), std::fmax(std::fabs(v.y), std::fabs(v.z)));
+    const T x = std::fabs(v.x);
+    const T y = std::fabs(v.y);
+    const T z = std::fabs(v.z);
+    const T xy = x > y ? x : y;
+    return xy > z ? xy : z;
 }
 
 /// Euclidean length. Scaled by the largest component first, so that it neither overflows nor

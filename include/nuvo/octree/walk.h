@@ -78,7 +78,7 @@ class ExactWalk {
             double t = 0;
             int axis = 0;
             if (!slab_entry(root, t, axis)) return false;
-            base_ = std::fmax(0.0, t * (1 - 8 * kUnitRoundoff));
+            base_ = t * (1 - 8 * kUnitRoundoff);
             origin_ = {std::fma(base_, direction_.x, origin_.x),
                        std::fma(base_, direction_.y, origin_.y),
                        std::fma(base_, direction_.z, origin_.z)};
@@ -111,7 +111,7 @@ class ExactWalk {
                 entry = t_near;
                 entry_axis = axis;
             }
-            exit = std::fmin(exit, (heading_face(root, axis) - origin_[axis]) / d);
+            exit = std::min(exit, (heading_face(root, axis) - origin_[axis]) / d);
         }
         return entry <= exit + 8 * kUnitRoundoff * (entry + std::fabs(exit));
     }
