@@ -67,6 +67,14 @@ std::string counts_line(const TraceCounts& counts) {
         a_ray(counts.voxel_searches));
 }
 
+std::string predicates_line(const PredicateCounts& predicates) {
+    return format(
+        "%-10s %llu tests of a primitive, %llu times tighter bounds, %llu times exact arithmetic\n",
+        "predicates", static_cast<unsigned long long>(predicates.tests),
+        static_cast<unsigned long long>(predicates.wider),
+        static_cast<unsigned long long>(predicates.exact));
+}
+
 std::string average_line(const Pass& pass) {
     const auto repetitions =
         static_cast<double>(std::max<std::size_t>(1, pass.trace_seconds.size()));
@@ -154,6 +162,8 @@ std::string report_text(const Options& options, const Report& report) {
         text +=
             pass.tree ? tree_line(pass) : format("%-10s none: %s\n", "octree", pass.name.c_str());
         if (pass.counts) text += counts_line(*pass.counts);
+        if (pass.counts && pass.counts->predicates)
+            text += predicates_line(*pass.counts->predicates);
         if (pass.tree) text += time_line("build", pass.build_seconds);
         text += time_line("trace", pass.trace_seconds);
         if (!options.compare && !report.rays) text += average_line(pass);

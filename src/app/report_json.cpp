@@ -75,6 +75,13 @@ void write_counts(JsonWriter& json, const TraceCounts& counts) {
     json.member("intersection_tests", counts.intersection_tests);
     json.member("voxel_searches", counts.voxel_searches);
     json.end_object();
+    if (!counts.predicates) return;
+    json.key("predicates");
+    json.begin_object();
+    json.member("tests", counts.predicates->tests);
+    json.member("wider", counts.predicates->wider);
+    json.member("exact", counts.predicates->exact);
+    json.end_object();
 }
 
 void write_pass(JsonWriter& json, const Pass& pass) {
