@@ -69,8 +69,7 @@ class ExactSearch {
             if (!entered && !octree_.root().is_leaf()) counter_.count_search();
             entered = true;
             counter_.count_tests(leaf.item_count);
-            for (ItemId item : octree_.contents(leaf))
-                kernel_.closest(ray, of_item(item), best);
+            for (ItemId item : octree_.contents(leaf)) kernel_.closest(ray, of_item(item), best);
             // What is listed in a leaf but met beyond it is met again in its own leaf, so the
             // nearest hit is final once the ray leaves the leaf no earlier than there.
             const bool found = best && kernel_.upper_t(*best) <= exit;
