@@ -2,6 +2,7 @@
 """Draws speed against error from the reports of nuvo --study. Needs matplotlib."""
 
 import argparse
+import itertools
 import json
 import pathlib
 import sys
@@ -54,10 +55,10 @@ def draw(axes, study, floor):
     places = {}
     for seconds, error, name in sorted(named, key=lambda entry: -entry[1]):
         places.setdefault(f"{max(error, floor):.2g}", []).append((seconds, error, name))
-    for group in places.values():
+    for offset, group in zip(itertools.cycle((4, -9)), places.values()):
         seconds, error, name = max(group)
         more = f" and {len(group) - 1} more" if len(group) > 1 else ""
-        axes.annotate(name + more, (seconds, max(error, floor)), xytext=(6, 3),
+        axes.annotate(name + more, (seconds, max(error, floor)), xytext=(6, offset),
                       textcoords="offset points", fontsize=6.5)
     axes.axhline(floor, color="grey", linewidth=0.6, linestyle=":")
     axes.set_xscale("log")

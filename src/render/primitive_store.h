@@ -7,9 +7,9 @@
 
 namespace nuvo {
 
-/// The primitives' coordinates side by side, one array a kind, found by PrimitiveId. A kind that
-/// the scene lacks costs nothing. TriangleList takes Triangles by push_back; the other two types
-/// are made from Sphere and Ellipsoid.
+/// The primitives' coordinates side by side, one array a kind, found by PrimitiveId. A kind that the
+/// scene lacks costs nothing. TriangleList takes Triangles by push_back; the other two types are
+/// made from Sphere and Ellipsoid.
 template <typename TriangleList, typename SphereT, typename EllipsoidT>
 class PrimitiveStore {
   public:
