@@ -173,6 +173,13 @@ std::vector<Flag> output_flags() {
         {"rays", "--rays", "FILE", "",
          "answer the rays of FILE (a line each: ox oy oz dx dy dz) and draw nothing",
          [](Options& o, const std::string& v) { o.rays = non_empty(v, "a file name"); }},
+        {"study", "--study", "[=FILE]", "",
+         "render with each combination of answers worth comparing, --rep times, and print speed "
+         "against error; write every figure to FILE as JSON",
+         [](Options& o, const std::string& v) {
+             o.study = true;
+             if (!v.empty()) o.study_json = v;
+         }},
         {"out", "--out", "FILE", "",
          "the picture (default: beside the scene), or the rays' answers",
          [](Options& o, const std::string& v) { o.out = non_empty(v, "a file name"); }},

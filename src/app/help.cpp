@@ -9,7 +9,8 @@ constexpr std::size_t kTextColumn = 4;
 constexpr std::size_t kLastColumn = 80;
 
 std::string syntax(const Flag& flag) {
-    return flag.value.empty() ? flag.spelling : flag.spelling + "=" + flag.value;
+    const char* const sign = flag.value.empty() || flag.may_stand_alone() ? "" : "=";
+    return flag.spelling + sign + flag.value;
 }
 
 void append_wrapped(std::string& out, const std::string& text) {

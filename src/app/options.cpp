@@ -61,6 +61,8 @@ po::options_description description() {
         const std::string names = flag.name == "help" ? "help,h" : flag.name;
         if (flag.value.empty()) {
             all.add_options()(names.c_str(), "");
+        } else if (flag.may_stand_alone()) {
+            all.add_options()(names.c_str(), po::value<std::string>()->implicit_value(""), "");
         } else {
             all.add_options()(names.c_str(), po::value<std::string>(), "");
         }
@@ -104,7 +106,15 @@ void check_combinations(const Options& options, const std::map<std::string, std:
     if (options.compare && options.rays) throw UsageError("-compare and --rays cannot be combined");
     if (options.show_octree && options.rays)
         throw UsageError("-showoctree and --rays cannot be combined");
-    if (is_given("midpoint") && !options.compare && options.profile.type == OctreeType::kUniform)
+    if (options.study)
+        for (const char* other : {"compare", "rays", "showoctree", "profile", "costs", "leaves",
+                                  "walk", "step", "precision", "bias", "out", "json", "counters"})
+            if (is_given(other))
+                throw UsageError(
+                    std::string("--study chooses the answers and the outputs: leave --") + other +
+                    " out");
+    if (is_given("midpoint") && !options.compare && !options.study &&
+        options.profile.type == OctreeType::kUniform)
         throw UsageError("--midpoint=" + given.at("midpoint") +
                          ": a uniform octree has no choice of midpoint (add --type=nonuniform)");
     if (is_given("max-objects") && is_given("costs"))

@@ -66,6 +66,7 @@ ExitCode obey(const Options& options) {
         return kDone;
     }
     if (options.compare) return compare_command(options);
+    if (options.study) return study_command(options);
     if (options.rays) return rays_command(options);
     return render_command(options);
 }

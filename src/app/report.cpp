@@ -2,30 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 #include <numeric>
 
 #include "nuvo/app/choices.h"
+#include "text.h"
 
 namespace nuvo::app {
 namespace {
-
-__attribute__((format(printf, 1, 2))) std::string format(const char* pattern, ...) {
-    va_list arguments, again;
-    va_start(arguments, pattern);
-    va_copy(again, arguments);
-    const int size = std::vsnprintf(nullptr, 0, pattern, arguments);
-    va_end(arguments);
-    std::string text(static_cast<std::size_t>(std::max(size, 0)), '\0');
-    std::vsnprintf(text.data(), text.size() + 1, pattern, again);
-    va_end(again);
-    return text;
-}
-
-std::string counted(std::size_t n, const char* noun) {
-    return std::to_string(n) + " " + noun + (n == 1 ? "" : "s");
-}
 
 double mean(const std::vector<double>& values) {
     if (values.empty()) return 0;
@@ -65,6 +48,14 @@ std::string counts_line(const TraceCounts& counts) {
         static_cast<unsigned long long>(counts.intersection_tests),
         a_ray(counts.intersection_tests), static_cast<unsigned long long>(counts.voxel_searches),
         a_ray(counts.voxel_searches));
+}
+
+std::string predicates_line(const PredicateCounts& predicates) {
+    return format(
+        "%-10s %llu tests of a primitive, %llu times tighter bounds, %llu times exact arithmetic\n",
+        "predicates", static_cast<unsigned long long>(predicates.tests),
+        static_cast<unsigned long long>(predicates.wider),
+        static_cast<unsigned long long>(predicates.exact));
 }
 
 std::string average_line(const Pass& pass) {
@@ -154,6 +145,8 @@ std::string report_text(const Options& options, const Report& report) {
         text +=
             pass.tree ? tree_line(pass) : format("%-10s none: %s\n", "octree", pass.name.c_str());
         if (pass.counts) text += counts_line(*pass.counts);
+        if (pass.counts && pass.counts->predicates)
+            text += predicates_line(*pass.counts->predicates);
         if (pass.tree) text += time_line("build", pass.build_seconds);
         text += time_line("trace", pass.trace_seconds);
         if (!options.compare && !report.rays) text += average_line(pass);

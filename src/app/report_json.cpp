@@ -1,47 +1,9 @@
-#include "nuvo/app/choices.h"
 #include "nuvo/app/json_writer.h"
 #include "nuvo/app/report.h"
+#include "options_json.h"
 
 namespace nuvo::app {
 namespace {
-
-void write_profile(JsonWriter& json, const Options& options) {
-    const Profile& profile = options.profile;
-    const bool cuts_freely = options.compare || profile.type == OctreeType::kNonuniform;
-    const auto number_or_exact = [&json](const char* name, const std::optional<double>& value) {
-        if (value) {
-            json.member(name, *value);
-        } else {
-            json.member(name, "exact");
-        }
-    };
-    json.key("profile");
-    json.begin_object();
-    json.member("name", options.profile_name);
-    json.member("type", options.compare ? "all" : name_of(kOctreeTypes, profile.type));
-    json.member("midpoint",
-                name_of(kMidpoints, cuts_freely ? profile.midpoint : MidpointChoice::kSpatial));
-    json.key("costs");
-    if (profile.max_objects) {
-        json.null();
-    } else {
-        json.value(name_of(kCosts, profile.costs));
-    }
-    json.member("thesis_weight", profile.thesis_weight);
-    json.key("max_objects");
-    if (profile.max_objects) {
-        json.value(*profile.max_objects);
-    } else {
-        json.null();
-    }
-    json.member("leaves", name_of(kLeafContents, profile.leaves));
-    json.member("walk", name_of(kWalks, profile.walk));
-    number_or_exact("step", profile.step);
-    json.member("precision", name_of(kPrecisions, profile.precision));
-    number_or_exact("bias", profile.bias);
-    json.member("headlight", name_of(kHeadlights, options.headlight));
-    json.end_object();
-}
 
 void write_scene(JsonWriter& json, const SceneCounts& scene) {
     json.key("scene");
@@ -74,6 +36,13 @@ void write_counts(JsonWriter& json, const TraceCounts& counts) {
     json.member("shadow_rays", counts.shadow_rays);
     json.member("intersection_tests", counts.intersection_tests);
     json.member("voxel_searches", counts.voxel_searches);
+    json.end_object();
+    if (!counts.predicates) return;
+    json.key("predicates");
+    json.begin_object();
+    json.member("tests", counts.predicates->tests);
+    json.member("wider", counts.predicates->wider);
+    json.member("exact", counts.predicates->exact);
     json.end_object();
 }
 
@@ -129,11 +98,7 @@ std::string report_json(const Options& options, const Report& report) {
     if (!report.picture.empty()) json.member(report.rays ? "answers" : "picture", report.picture);
     if (!report.difference.empty()) json.member("difference_picture", report.difference);
     if (!report.rays) {
-        json.key("resolution");
-        json.begin_object();
-        json.member("width", options.resolution.width);
-        json.member("height", options.resolution.height);
-        json.end_object();
+        write_resolution(json, options.resolution);
         json.member("repetitions", report.passes.front().trace_seconds.size());
     }
     write_profile(json, options);

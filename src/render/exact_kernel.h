@@ -123,6 +123,7 @@ class ExactKernel {
     bool precedes(const ExactRay& ray, const Hit& a, const Hit& b) const {
         if (a.root.high < b.root.low) return true;
         if (b.root.high < a.root.low) return false;
+        if (a.primitive == b.primitive) return false;  // met again in another leaf
         const int order = compare_roots(ray, hit_primitive(a), hit_primitive(b), counts_);
         return order < 0 || (order == 0 && a.primitive < b.primitive);
     }

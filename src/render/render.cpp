@@ -1,6 +1,7 @@
 #include "nuvo/render/render.h"
 
 #include <limits>
+#include <type_traits>
 
 #include "exact_kernel.h"
 #include "nuvo/geometry/overlap.h"
@@ -100,6 +101,23 @@ std::vector<RayAnswer> answers(const Scene& scene, const Kernel& kernel, Search 
     return out;
 }
 
+// What happens to lights beyond the bits of PixelFacts::lit: a mixing of all bits (splitmix64).
+std::uint64_t mixed(std::uint64_t x) {
+    x += 0x9e3779b97f4a7c15;
+    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;
+    x = (x ^ (x >> 27)) * 0x94d049bb133111eb;
+    return x ^ (x >> 31);
+}
+
+// Writes down what it is told.
+struct FactsObserver {
+    PixelFacts& facts;
+    void hit(PrimitiveId primitive) { facts.primitive = primitive; }
+    void lit(std::size_t light) {
+        facts.lit ^= light < 64 ? std::uint64_t{1} << light : mixed(light);
+    }
+};
+
 }  // namespace
 
 Octree build_tree(const Scene& scene, const Primitives& primitives, const Profile& profile) {
@@ -139,18 +157,38 @@ Image render_brute_force(const Scene& scene, const Primitives& primitives, const
     });
 }
 
+std::vector<PixelFacts> render_facts(const Scene& scene, const Primitives& primitives,
+                                     const Octree& octree, const Profile& profile,
+                                     Resolution resolution) {
+    std::vector<PixelFacts> facts;
+    const RayGenerator rays(scene.camera, resolution);
+    with_kernel(scene, primitives, profile, [&](const auto& kernel) {
+        with_search(kernel, primitives, octree, profile, NoCounter{}, [&](auto search) {
+            Tracer tracer(scene, kernel, std::move(search));
+            for (int y = 0; y < resolution.height; ++y)
+                for (int x = 0; x < resolution.width; ++x)
+                    tracer.color(rays.ray(x, y), FactsObserver{facts.emplace_back()});
+        });
+    });
+    return facts;
+}
+
 TraceCounts count_events(const Scene& scene, const Primitives& primitives, const Octree& octree,
                          const Profile& profile, Resolution resolution) {
     TraceCounts counts;
+    std::uint64_t tested = 0;
     with_kernel(scene, primitives, profile, [&](const auto& kernel) {
-        return with_search(kernel, primitives, octree, profile, EventCounter{&counts},
-                           [&](auto search) {
-                               Tracer tracer(scene, kernel, std::move(search));
-                               tracer.image(resolution);
-                               counts.primary_rays = tracer.primary_rays();
-                               counts.shadow_rays = tracer.shadow_rays();
-                               return 0;
-                           });
+        const EventCounter counter{&counts, &tested};
+        with_search(kernel, primitives, octree, profile, counter, [&](auto search) {
+            Tracer tracer(scene, kernel, std::move(search));
+            tracer.image(resolution);
+            counts.primary_rays = tracer.primary_rays();
+            counts.shadow_rays = tracer.shadow_rays();
+        });
+        if constexpr (std::is_same_v<std::decay_t<decltype(kernel)>, ExactKernel>) {
+            const StageCounts& stages = kernel.stage_counts();
+            counts.predicates = PredicateCounts{tested, stages.wider, stages.exact};
+        }
     });
     return counts;
 }

@@ -17,13 +17,16 @@ namespace nuvo {
 struct NoCounter {
     void count_tests(std::size_t) const {}
     void count_search() const {}
+    void count_primitives(PrimitiveRange) const {}
 };
 
 /// Counts as the thesis does.
 struct EventCounter {
     TraceCounts* counts;
+    std::uint64_t* primitives;  // of those leaf items
     void count_tests(std::size_t n) const { counts->intersection_tests += n; }
     void count_search() const { ++counts->voxel_searches; }
+    void count_primitives(PrimitiveRange range) const { *primitives += range.last - range.first; }
 };
 
 /// Every primitive against every ray.
@@ -66,8 +69,7 @@ class ExactSearch {
             if (!entered && !octree_.root().is_leaf()) counter_.count_search();
             entered = true;
             counter_.count_tests(leaf.item_count);
-            for (ItemId item : octree_.contents(leaf))
-                kernel_.closest(ray, primitives_.of_item(item), best);
+            for (ItemId item : octree_.contents(leaf)) kernel_.closest(ray, of_item(item), best);
             // What is listed in a leaf but met beyond it is met again in its own leaf, so the
             // nearest hit is final once the ray leaves the leaf no earlier than there.
             const bool found = best && kernel_.upper_t(*best) <= exit;
@@ -83,7 +85,7 @@ class ExactSearch {
         walk_(kernel_.walk_ray(shadow.ray), shadow.end, [&](const Node& leaf, double exit) {
             counter_.count_tests(leaf.item_count);
             for (ItemId item : octree_.contents(leaf)) {
-                blocked = kernel_.blocks(shadow, primitives_.of_item(item));
+                blocked = kernel_.blocks(shadow, of_item(item));
                 if (blocked) return true;
             }
             if (exit < shadow.end) counter_.count_search();
@@ -93,6 +95,12 @@ class ExactSearch {
     }
 
   private:
+    PrimitiveRange of_item(ItemId item) const {
+        const PrimitiveRange range = primitives_.of_item(item);
+        counter_.count_primitives(range);
+        return range;
+    }
+
     const Kernel& kernel_;
     const Primitives& primitives_;
     const Octree& octree_;
@@ -121,7 +129,7 @@ class NudgedSearch {
         walk(line, [&](const Node& leaf) {
             for (ItemId item : octree_.contents(leaf)) {
                 std::optional<typename Kernel::Hit> nearest;
-                kernel_.closest(ray, primitives_.of_item(item), nearest);
+                kernel_.closest(ray, of_item(item), nearest);
                 if (nearest && inside(leaf, line, kernel_.t(*nearest)) &&
                     (!best || kernel_.t(*nearest) < kernel_.t(*best)))
                     best = nearest;
@@ -137,7 +145,7 @@ class NudgedSearch {
         const RayT<Scalar> line(kernel_.nudged_ray(shadow.ray));
         walk(line, [&](const Node& leaf) {
             for (ItemId item : octree_.contents(leaf)) {
-                const Scalar nearest = kernel_.shadow_t(shadow, primitives_.of_item(item));
+                const Scalar nearest = kernel_.shadow_t(shadow, of_item(item));
                 if (nearest < first && inside(leaf, line, nearest)) first = nearest;
             }
             return first < Kernel::kInfinity;
@@ -161,6 +169,12 @@ class NudgedSearch {
 
     bool inside(const Node& leaf, const RayT<Scalar>& line, Scalar t) const {
         return decltype(walk_)::bounds_of(leaf).inflated(kTolerance).contains(line.at(t));
+    }
+
+    PrimitiveRange of_item(ItemId item) const {
+        const PrimitiveRange range = primitives_.of_item(item);
+        counter_.count_primitives(range);
+        return range;
     }
 
     const Kernel& kernel_;

@@ -5,6 +5,12 @@
 
 namespace nuvo {
 
+/// Is told nothing, at no cost.
+struct NoObserver {
+    void hit(PrimitiveId) const {}
+    void lit(std::size_t) const {}
+};
+
 /// The serial reference tracer: one primary ray a pixel, one shadow ray a light that reaches the
 /// hit point, no recursion. [thesis 4.1, 4.3.2, 5.3.2] `Kernel` decides how exact, `Search` how
 /// fast.
@@ -23,22 +29,27 @@ class Tracer {
         return image;
     }
 
-    /// [eq. 36, 37] `ray` has unit direction.
-    Color color(const Ray& ray) {
+    /// [eq. 36, 37] `ray` has unit direction. `observer` hears of the nearest primitive and of
+    /// each light that reaches it.
+    template <typename Observer = NoObserver>
+    Color color(const Ray& ray, Observer&& observer = {}) {
         ++primary_rays_;
         const auto prepared = kernel_.prepare(ray);
         const auto hit = search_.closest(prepared);
         if (!hit) return scene_.background.color(ray.direction);
+        observer.hit(hit->primitive);
         const std::uint32_t index = kernel_.source(hit->primitive).object;
         const Object& object = scene_.objects[index];
         const Material& material = scene_.materials[object.material];
         Color sum = material.emissive_color;
         if (!material.lit) return sum;
         const auto surface = kernel_.surface(prepared, *hit, object);
-        for (const Light& light : scene_.lights) {
+        for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
+            const Light& light = scene_.lights[i];
             if (!light.scope.includes(index)) continue;
             const std::optional<LightSample> sample = sample_light(light, surface.point);
             if (!sample || (light.casts_shadow && blocked(surface, light))) continue;
+            observer.lit(i);
             sum += light_contribution(light, *sample, material, surface.normal, -ray.direction);
         }
         return sum;

@@ -227,6 +227,15 @@ TEST(Options, FlagsThatContradictEachOtherAreRefused) {
     EXPECT_NE(usage_error({"--rays=r", "-compare"}), "");
     EXPECT_NE(usage_error({"--rays=r", "-showoctree"}), "");
     EXPECT_NE(usage_error({"--max-objects=3", "--costs=thesis"}), "");
+    EXPECT_EQ(usage_error({"--study", "--midpoint=sweep", "--type=uniform"}), "");
+    EXPECT_TRUE(contains(usage_error({"--study", "--bias=0"}), "--bias"));
+}
+
+TEST(Options, AStudyMayHaveAFile) {
+    EXPECT_FALSE(parse({}).study);
+    EXPECT_TRUE(parse({"--study", "--res=4,5"}).study);
+    EXPECT_FALSE(parse({"--study", "--res=4,5"}).study_json.has_value());
+    EXPECT_EQ(parse({"-study=s.json", "--res=4,5"}).study_json, "s.json");
 }
 
 TEST(Flags, NamesAreUniqueAndEveryRowIsComplete) {

@@ -22,6 +22,8 @@ ExitCode render_command(const Options& options);
 /// Renders with every octree type and by brute force and writes the uniform picture and the
 /// difference picture of the pair that is furthest apart (black where none differs).
 ExitCode compare_command(const Options& options);
+/// Renders with every combination of answers worth comparing and tells speed and error of each.
+ExitCode study_command(const Options& options);
 /// Answers the rays of a file.
 ExitCode rays_command(const Options& options);
 // All throw UsageError, x3d::Error, RaysError, image::WriteError and std::bad_alloc.

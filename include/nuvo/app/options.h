@@ -25,6 +25,8 @@ struct Options {
     std::optional<std::string> rays;
     std::optional<std::string> out;
     std::optional<std::string> json;
+    bool study = false;
+    std::optional<std::string> study_json;
     bool show_octree = false;
     bool compare = false;
     bool counters = false;
@@ -43,12 +45,14 @@ class UsageError : public std::runtime_error {
 struct Flag {
     std::string name;      ///< without dashes
     std::string spelling;  ///< as the thesis writes it: "--file", "-compare"
-    std::string value;     ///< syntax of the value; empty: a switch
+    std::string value;     ///< syntax of the value; empty: a switch; "[=FILE]": may be missing
     std::string standard;  ///< the default as text; empty: none
     std::string help;
     /// Puts the value (empty for a switch) into the options. Throws UsageError with the reason
     /// only.
     void (*apply)(Options&, const std::string& value);
+
+    bool may_stand_alone() const { return value.starts_with('['); }
 };
 
 /// The table, in the order of the help. A flag that others refine stands before them.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,12 +14,28 @@
 
 namespace nuvo {
 
+/// How often each stage of the exact predicates decided, over one picture.
+struct PredicateCounts {
+    std::uint64_t tests = 0;  ///< one primitive against one ray; most end in the cheap stage
+    std::uint64_t wider = 0;  ///< times that the cheap stage left it to tighter bounds in double
+    std::uint64_t exact = 0;  ///< times that exact arithmetic decided, orders of hits included
+};
+
 /// Events of one picture as the thesis counts them. [thesis 5.7]
 struct TraceCounts {
     std::uint64_t primary_rays = 0;
     std::uint64_t shadow_rays = 0;
     std::uint64_t intersection_tests = 0;  ///< one ray against one leaf item (a mesh counts once)
     std::uint64_t voxel_searches = 0;      ///< calls that look for the next leaf on a ray's way
+    std::optional<PredicateCounts> predicates = {};  ///< of Precision::kExact only
+};
+
+/// What decided a pixel's color.
+struct PixelFacts {
+    std::optional<PrimitiveId> primitive;  ///< the nearest; none: the background
+    /// The lights that reach the hit point unblocked: bit i for light i; lights from the 64th on
+    /// each change all bits, so that different sets still differ all but surely.
+    std::uint64_t lit = 0;
 };
 
 /// How one ray of a query ended: `object` and `triangle` are those of the file, see docs.
@@ -38,6 +55,10 @@ Image render(const Scene& scene, const Primitives& primitives, const Octree& oct
 /// The same picture with every item tested against every ray.
 Image render_brute_force(const Scene& scene, const Primitives& primitives, const Profile& profile,
                          Resolution resolution);
+/// The facts behind render()'s picture, by rows from the top.
+std::vector<PixelFacts> render_facts(const Scene& scene, const Primitives& primitives,
+                                     const Octree& octree, const Profile& profile,
+                                     Resolution resolution);
 /// Counts the events of render() in a run of its own, so that timed runs carry no counters.
 TraceCounts count_events(const Scene& scene, const Primitives& primitives, const Octree& octree,
                          const Profile& profile, Resolution resolution);

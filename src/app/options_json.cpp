@@ -1,0 +1,53 @@
+#include "options_json.h"
+
+#include "nuvo/app/choices.h"
+
+namespace nuvo::app {
+
+void write_profile(JsonWriter& json, const Options& options) {
+    const Profile& profile = options.profile;
+    const bool cuts_freely = options.compare || profile.type == OctreeType::kNonuniform;
+    const auto number_or_exact = [&json](const char* name, const std::optional<double>& value) {
+        if (value) {
+            json.member(name, *value);
+        } else {
+            json.member(name, "exact");
+        }
+    };
+    json.key("profile");
+    json.begin_object();
+    json.member("name", options.profile_name);
+    json.member("type", options.compare ? "all" : name_of(kOctreeTypes, profile.type));
+    json.member("midpoint",
+                name_of(kMidpoints, cuts_freely ? profile.midpoint : MidpointChoice::kSpatial));
+    json.key("costs");
+    if (profile.max_objects) {
+        json.null();
+    } else {
+        json.value(name_of(kCosts, profile.costs));
+    }
+    json.member("thesis_weight", profile.thesis_weight);
+    json.key("max_objects");
+    if (profile.max_objects) {
+        json.value(*profile.max_objects);
+    } else {
+        json.null();
+    }
+    json.member("leaves", name_of(kLeafContents, profile.leaves));
+    json.member("walk", name_of(kWalks, profile.walk));
+    number_or_exact("step", profile.step);
+    json.member("precision", name_of(kPrecisions, profile.precision));
+    number_or_exact("bias", profile.bias);
+    json.member("headlight", name_of(kHeadlights, options.headlight));
+    json.end_object();
+}
+
+void write_resolution(JsonWriter& json, Resolution resolution) {
+    json.key("resolution");
+    json.begin_object();
+    json.member("width", resolution.width);
+    json.member("height", resolution.height);
+    json.end_object();
+}
+
+}  // namespace nuvo::app

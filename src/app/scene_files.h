@@ -1,0 +1,27 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "nuvo/app/options.h"
+#include "nuvo/scene/scene.h"
+
+namespace nuvo::app {
+
+struct LoadedScene {
+    std::filesystem::path path;
+    Scene scene;
+    double parse_seconds = 0;
+};
+
+/// Reads the scene that the options name; its warnings go to standard error. Throws x3d::Error.
+LoadedScene load(const Options& options);
+
+/// Finds out now what would stop an output after a long render, or destroy an input. Throws
+/// UsageError and image::WriteError.
+void check_outputs(const std::vector<std::filesystem::path>& inputs,
+                   const std::vector<std::filesystem::path>& outputs);
+
+bool is_regular(const std::filesystem::path& path);
+
+}  // namespace nuvo::app
