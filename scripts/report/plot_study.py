@@ -4,13 +4,14 @@
 import argparse
 import itertools
 import json
+import math
 import pathlib
 import sys
 
 try:
     import matplotlib
     matplotlib.use("Agg")
-    from matplotlib import pyplot
+    from matplotlib import pyplot, ticker
     from matplotlib.lines import Line2D
 except ImportError:
     sys.exit("plot_study.py: matplotlib is not installed (apt-get install python3-matplotlib)")
@@ -24,12 +25,9 @@ def label(row):
 
 
 def least_error(studies):
-    """Where error 0 is drawn: a decade below the least other error, on a power of ten."""
+    """Where error 0 is drawn: a power of ten clearly below the least other error."""
     errors = [row["rms"] for study in studies for row in study["rows"] if row["rms"] > 0]
-    floor = 1e-3
-    while errors and floor > min(errors) / 3:
-        floor /= 10
-    return floor
+    return 10 ** math.floor(math.log10(min(errors, default=1) / 3))
 
 
 def draw(axes, study, floor):
@@ -56,14 +54,16 @@ def draw(axes, study, floor):
     for seconds, error, name in sorted(named, key=lambda entry: -entry[1]):
         places.setdefault(f"{max(error, floor):.2g}", []).append((seconds, error, name))
     for offset, group in zip(itertools.cycle((4, -9)), places.values()):
-        seconds, error, name = max(group)
+        seconds, error, name = min(group, key=lambda entry: len(entry[2]))
         more = f" and {len(group) - 1} more" if len(group) > 1 else ""
         axes.annotate(name + more, (seconds, max(error, floor)), xytext=(6, offset),
                       textcoords="offset points", fontsize=6.5)
     axes.axhline(floor, color="grey", linewidth=0.6, linestyle=":")
     axes.set_xscale("log")
     axes.set_yscale("log")
-    axes.margins(x=0.3)
+    axes.margins(x=0.45)
+    axes.xaxis.set_major_formatter(ticker.StrMethodFormatter("{x:g}"))
+    axes.xaxis.set_minor_formatter(ticker.StrMethodFormatter("{x:g}"))
     size = study["resolution"]
     axes.set_title(f"{pathlib.Path(study['file']).stem}, {size['width']} x {size['height']}")
     axes.set_xlabel("processor seconds to trace a frame (median of "
@@ -86,7 +86,7 @@ def main():
     first = all_axes[0][0]
     first.set_ylabel("RMS error of a channel, of 255")
     figure.canvas.draw()  # settles the ticks
-    ticks = [tick for tick in first.get_yticks() if tick > floor]
+    ticks = [tick for tick in first.get_yticks() if floor < tick <= 255]
     first.set_yticks([floor] + ticks, ["0"] + [f"{tick:g}" for tick in ticks])
     first.set_ylim(bottom=floor / 3)
     marks = [Line2D([], [], marker="o", linestyle="none", color=color, label=f"{name} profile")
@@ -94,7 +94,7 @@ def main():
     marks += [Line2D([], [], marker=marker, linestyle="none", color="grey", label=f"{name} tests")
               for name, marker in PRECISIONS.items()]
     marks.append(Line2D([], [], color="tab:green", label="frontier"))
-    first.legend(handles=marks, fontsize=7, loc="center left")
+    first.legend(handles=marks, fontsize=7, loc="upper left")
     figure.tight_layout()
     arguments.out.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(arguments.out, dpi=130)
