@@ -1,0 +1,35 @@
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "leaks.h"
+#include "run.h"
+
+namespace nuvo::hard {
+namespace {
+
+TEST(HardCases, EveryRayOfEveryClassIsWhatExactArithmeticSays) {
+    RunOptions options;
+    options.rays = 60'000;
+    options.seed = 20'240'601;
+    options.rays_per_scene = 100;
+    std::ostringstream report;
+    const std::vector<ClassTally> tallies = run(options, report);
+    EXPECT_EQ(tallies.size(), 23U);
+    EXPECT_TRUE(print(report, tallies)) << report.str();
+    for (const ClassTally& tally : tallies) {
+        // Both outcomes occur, or the class is not hard.
+        EXPECT_GT(tally.float_exact.hits, tally.float_exact.rays / 5) << tally.name;
+        EXPECT_GT(tally.full_double.hits, tally.full_double.rays / 5) << tally.name;
+    }
+}
+
+TEST(HardCases, NoRayLeaksOutOfAClosedMesh) {
+    std::ostringstream report;
+    const LeakCount count = count_leaks(100'000, 7, 0, report);
+    EXPECT_EQ(count.rays, 100'000U);
+    EXPECT_EQ(count.leaks, 0U) << report.str();
+}
+
+}  // namespace
+}  // namespace nuvo::hard
