@@ -1,10 +1,14 @@
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <string>
 
 #include "classes.h"
 #include "leaks.h"
+#include "pictures.h"
 #include "run.h"
+#include "scene_files.h"
 
 namespace {
 
@@ -14,6 +18,9 @@ constexpr const char* kUsage =
     "  --seed=S       any number (1)\n"
     "  --class=NAME   one class only\n"
     "  --leaks=N      instead: rays from inside closed meshes at their corners and edges\n"
+    "  --pictures     instead: pictures of testfiles/hard against the reference, 160 x 90\n"
+    "  --precision=P  exact, double or float tests, to see the oracle find their errors (exact)\n"
+    "  --write-scenes instead: write testfiles/hard anew\n"
     "  --threads=N    batches at once (as many as the machine has)\n"
     "  --list         the classes\n";
 
@@ -21,6 +28,8 @@ struct Flags {
     nuvo::hard::RunOptions run;
     std::uint64_t leaks = 0;
     bool list = false;
+    bool pictures = false;
+    bool write_scenes = false;
     bool help = false;
 };
 
@@ -36,10 +45,19 @@ bool read_flag(const std::string& flag, Flags& flags) {
     const std::string value = equals == std::string::npos ? "" : flag.substr(equals + 1);
     std::uint64_t number = 0;
     if (name == "--list") return flags.list = true;
+    if (name == "--pictures") return flags.pictures = true;
+    if (name == "--write-scenes") return flags.write_scenes = true;
     if (name == "--help" || name == "-h") return flags.help = true;
     if (name == "--class") {
         flags.run.only = value;
         return true;
+    }
+    if (name == "--precision") {
+        using nuvo::Precision;
+        flags.run.precision = value == "float"    ? Precision::kFloat
+                              : value == "double" ? Precision::kDouble
+                                                  : Precision::kExact;
+        return value == "float" || value == "double" || value == "exact";
     }
     if (!read_number(value, number)) return false;
     if (name == "--rays")
@@ -53,6 +71,22 @@ bool read_flag(const std::string& flag, Flags& flags) {
     else
         return false;
     return true;
+}
+
+void write_scenes() {
+    for (const nuvo::hard::SceneFile& file : nuvo::hard::hard_scene_files()) {
+        const std::filesystem::path path = nuvo::hard::hard_scene_path(file.name);
+        std::filesystem::create_directories(path.parent_path());
+        std::ofstream(path, std::ios::binary) << file.text;
+    }
+}
+
+int count_and_print_leaks(const Flags& flags) {
+    const nuvo::hard::LeakCount count =
+        nuvo::hard::count_leaks(flags.leaks, flags.run.seed, flags.run.threads, std::cerr);
+    std::cout << count.leaks << " leaks of " << count.rays << " rays, seed " << flags.run.seed
+              << "\n";
+    return count.leaks == 0 ? 0 : 1;
 }
 
 }  // namespace
@@ -75,13 +109,12 @@ int main(int argc, char** argv) {
         for (const HardClass& hard_class : hard_classes()) std::cout << hard_class.name << "\n";
         return 0;
     }
-    if (flags.leaks > 0) {
-        const LeakCount count =
-            count_leaks(flags.leaks, flags.run.seed, flags.run.threads, std::cerr);
-        std::cout << count.leaks << " leaks of " << count.rays << " rays, seed " << flags.run.seed
-                  << "\n";
-        return count.leaks == 0 ? 0 : 1;
+    if (flags.write_scenes) {
+        write_scenes();
+        return 0;
     }
+    if (flags.pictures) return check_pictures({160, 90}, flags.run.threads, std::cout) ? 0 : 1;
+    if (flags.leaks > 0) return count_and_print_leaks(flags);
     const std::vector<ClassTally> tallies = run(flags.run, std::cerr);
     if (tallies.empty()) {
         std::cerr << "hard_cases: no class " << flags.run.only << " (--list names them)\n";

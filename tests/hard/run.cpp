@@ -84,12 +84,13 @@ std::string judge_one(const Oracle& oracle, const Ray& ray, const RayAnswer& ans
     return "";
 }
 
-Tally run_batch(const HardClass& hard_class, const Batch& batch, std::uint64_t seed,
+Tally run_batch(const HardClass& hard_class, const Batch& batch, const RunOptions& options,
                 std::ostream& faults) {
     const auto kind = static_cast<Coordinates>(batch.number % 3);
-    Random random(mixed_seed(seed, batch.class_index, batch.number), kind);
+    Random random(mixed_seed(options.seed, batch.class_index, batch.number), kind);
     const Scene scene = hard_class.scene(random);
-    const Profile profile = any_profile(random, hard_class.deep_trees);
+    Profile profile = any_profile(random, hard_class.deep_trees);
+    profile.precision = options.precision;
     const Primitives primitives = flatten(scene, profile.leaves);
     const Octree octree = build_tree(scene, primitives, profile);
     Aims aims(scene, octree, random);
@@ -97,7 +98,8 @@ Tally run_batch(const HardClass& hard_class, const Batch& batch, std::uint64_t s
     for (int i = 0; i < batch.rays; ++i) rays.push_back(hard_class.ray(scene, aims, random));
     const auto answers = closest_hits(scene, primitives, &octree, profile, rays);
     const std::string label = std::string(hard_class.name) + " batch " +
-                              std::to_string(batch.number) + " seed " + std::to_string(seed);
+                              std::to_string(batch.number) + " seed " +
+                              std::to_string(options.seed);
     return judge(scene, rays, answers, label, faults);
 }
 
@@ -173,7 +175,7 @@ std::vector<ClassTally> run(const RunOptions& options, std::ostream& faults) {
         for (std::size_t i = next++; i < batches.size(); i = next++) {
             const Batch& batch = batches[i];
             std::ostringstream found;
-            const Tally tally = run_batch(classes[batch.class_index], batch, options.seed, found);
+            const Tally tally = run_batch(classes[batch.class_index], batch, options, found);
             const std::lock_guard lock(mutex);
             const bool full = static_cast<Coordinates>(batch.number % 3) == Coordinates::kDouble;
             ClassTally& sum = tallies[batch.class_index];

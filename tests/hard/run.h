@@ -38,8 +38,9 @@ struct ClassTally {
 struct RunOptions {
     std::uint64_t rays = 1'000'000;
     std::uint64_t seed = 1;
-    std::string only;      ///< a class; empty: all of them, in equal parts
-    unsigned threads = 0;  ///< 0: as many as the machine has
+    std::string only;                         ///< a class; empty: all of them, in equal parts
+    unsigned threads = 0;                     ///< 0: as many as the machine has
+    Precision precision = Precision::kExact;  ///< the others, to show that errors are found
     int rays_per_scene = 400;
 };
 
