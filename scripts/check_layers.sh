@@ -20,7 +20,6 @@ libraries=(
     "nlopt octree"
     "boost/chrono app"
     "boost/program_options app"
-    "nlohmann app"
 )
 include='^[[:space:]]*#[[:space:]]*include[[:space:]]*'
 faults=0

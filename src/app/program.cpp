@@ -25,7 +25,11 @@ extern "C" void end_by_signal(int signal) {
 void install_signal_handlers() {
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
         struct sigaction old {};
-        if (::sigaction(signal, nullptr, &old) == 0 && old.sa_handler == SIG_IGN) continue;
+        // nohup's wish is respected. A shell's background jobs ignore SIGINT, too, but whoever
+        // sends them one means it.
+        const bool is_ignored =
+            ::sigaction(signal, nullptr, &old) == 0 && old.sa_handler == SIG_IGN;
+        if (signal == SIGHUP && is_ignored) continue;
         struct sigaction action {};
         action.sa_handler = end_by_signal;
         ::sigemptyset(&action.sa_mask);

@@ -1,3 +1,4 @@
+#include "predicates_bounded.h"
 #include "predicates_quadratic.h"
 
 namespace nuvo {
@@ -8,15 +9,6 @@ struct BoundedMatrix {
     Matrix3 value;
     Matrix3 magnitude;  ///< gamma(4) times this bounds the error
 };
-
-Vector3 magnitude(const Vector3& v) { return {std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}; }
-double sum(const Vector3& v) { return v.x + v.y + v.z; }
-
-Vector3 cross_magnitude(const Vector3& p, const Vector3& q) {
-    const Vector3 s = magnitude(p);
-    const Vector3 t = magnitude(q);
-    return {s.y * t.z + s.z * t.y, s.z * t.x + s.x * t.z, s.x * t.y + s.y * t.x};
-}
 
 BoundedMatrix bounded_adjugate(const Matrix3& m) {
     const Matrix3 magnitudes{{cross_magnitude(m.row[1], m.row[2]),
@@ -166,7 +158,7 @@ SurfacePoint surface_point(const ExactRay& ray, const Ellipsoid& ellipsoid, Sphe
     const double half_the_digits = std::sqrt(kUnitRoundoff);
     // Well shaped: the determinant's sign, and half its digits, are known.
     if (!(std::fabs(determinant) > half_the_digits * shape && relative < half_the_digits &&
-          relative * reach < root_tolerance() * (max_norm(ellipsoid.center) + reach)))
+          relative * reach < surface_tolerance() * (max_norm(ellipsoid.center) + reach)))
         return exact_surface_point(ray, ellipsoid, which, reach);
     const Vector3 unit = normalized(rounded.offset);
     SurfacePoint result;

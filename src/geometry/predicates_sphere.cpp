@@ -75,7 +75,7 @@ SurfacePoint surface_point(const ExactRay& ray, const Sphere& sphere, SphereRoot
     using namespace detail;
     const RoundedOffset rounded = rounded_offset(rounded_quadratic(ray, sphere), which);
     // Projecting onto the sphere from outside a radius r multiplies errors by at most R / r.
-    const double allowed = root_tolerance() * (max_norm(sphere.center) + sphere.radius);
+    const double allowed = surface_tolerance() * (max_norm(sphere.center) + sphere.radius);
     Vector3 offset = rounded.offset;
     double error = rounded.error * (1 + std::sqrt(kUnitRoundoff));
     if (!(error < allowed && error < std::sqrt(kUnitRoundoff) * sphere.radius)) {

@@ -1,93 +1,98 @@
+#include "predicates_bounded.h"
 #include "predicates_exact.h"
 
-namespace nuvo {
-namespace detail {
+namespace nuvo::detail {
 namespace {
-
-/// Componentwise |p| x |q| with every product added: bounds the cross product's roundings.
-Vector3 cross_magnitude(const Vector3& p, const Vector3& q) {
-    return {std::fabs(p.y * q.z) + std::fabs(p.z * q.y),
-            std::fabs(p.z * q.x) + std::fabs(p.x * q.z),
-            std::fabs(p.x * q.y) + std::fabs(p.y * q.x)};
-}
-
-Vector3 magnitude(const Vector3& v) { return {std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}; }
-
-double sum(const Vector3& v) { return v.x + v.y + v.z; }
-
-/// A double with its error bound. A NaN or infinite bound: nothing is known.
-struct Bounded {
-    double value;
-    double error;
-
-    bool sure() const { return std::fabs(value) > error && error < kLargest; }
-    int sign() const { return value > 0 ? 1 : -1; }
-    /// Known within `relative`.
-    bool within(double relative) const {
-        return error <= relative * std::fabs(value) && error < kLargest;
-    }
-
-  private:
-    static constexpr double kLargest = std::numeric_limits<double>::max();
-};
-
-/// d . (p x q), each of d, p, q known within one roundoff (a difference, or a direction without its
-/// tail): products of 8 roundings each, over the sum of their magnitudes; and underflow.
-/// [numerics: triple product]
-Bounded triple_product(const Vector3& d, const Vector3& p, const Vector3& q) {
-    const Vector3 size = magnitude(d);
-    return {dot(d, cross(p, q)),
-            gamma(9) * dot(size, cross_magnitude(p, q)) + 16 * kUnderflow * (sum(size) + 1)};
-}
 
 /// The exact sign of d . (p x q).
 int exact_triple_sign(const ExactVector& d, const ExactVector& p, const ExactVector& q) {
     return dot(d, cross(p, q)).sign();
 }
 
-/// The plane form t = n.(a - o) / n.d in double: n comes from the edges, so that a small triangle
-/// far away keeps its accuracy.
+/// The plane form t = n.(a - o) / n.d: n comes from the edges, so that a small triangle far away
+/// keeps its accuracy.
+template <typename T>
 struct PlaneRoot {
-    Bounded numerator;
-    Bounded denominator;
-    Vector3 normal;
-    Vector3 normal_magnitude;  ///< gamma(4) times this bounds the normal's error
+    Bounded<T> numerator;
+    Bounded<T> denominator;
+    Vec3<T> normal;
+    Vec3<T> normal_magnitude;  ///< gamma(4) times this bounds the normal's error
 };
 
-PlaneRoot plane_root(const ExactRay& ray, const Triangle& t) {
-    const Vector3 a = t.a - ray.origin();
-    const Vector3 e1 = t.b - t.a;
-    const Vector3 e2 = t.c - t.a;
-    PlaneRoot root;
-    root.normal = cross(e1, e2);
-    root.normal_magnitude = cross_magnitude(e1, e2);
-    const auto along = [&](const Vector3& v) {
-        const Vector3 size = magnitude(v);
-        return Bounded{dot(root.normal, v), gamma(9) * dot(root.normal_magnitude, size) +
-                                                16 * kUnderflow * (sum(size) + 1)};
-    };
-    root.numerator = along(a);
-    root.denominator = along(ray.direction());
-    return root;
+template <typename T>
+PlaneRoot<T> plane_root(const ExactRay& ray, const Triangle& t) {
+    const Vec3<T> corner(t.a);
+    const Vec3<T> e1 = Vec3<T>(t.b) - corner;
+    const Vec3<T> e2 = Vec3<T>(t.c) - corner;
+    const Vec3<T> normal = cross(e1, e2);
+    const Vec3<T> size = cross_magnitude(e1, e2);
+    return {triple_product(corner - Vec3<T>(ray.origin()), normal, size),
+            triple_product(direction_of<T>(ray), normal, size), normal, size};
 }
 
-[[gnu::cold, gnu::noinline]] std::optional<Root> exact_triangle_hit(const ExactRay& ray,
-                                                                    const Triangle& triangle,
-                                                                    StageCounts& counts) {
+enum class Outcome : std::uint8_t { kNo, kYes, kUnsure };
+
+template <typename T>
+Outcome try_hit(const ExactRay& ray, const Triangle& triangle, Root& root) {
+    const PlaneRoot<T> plane = plane_root<T>(ray, triangle);
+    const Bounded<T>& n = plane.numerator;
+    const Bounded<T>& d = plane.denominator;
+    if (n.sure() && d.sure() && n.sign() != d.sign()) return Outcome::kNo;
+    constexpr double kShare = 0.4375 * root_tolerance();  // two of these and four roundings
+    const double t = static_cast<double>(n.value / d.value);
+    if (!(n.within(kShare) && d.within(kShare) && t > kSmallestRoot && t < kLargestRoot))
+        return Outcome::kUnsure;
+    root = {t, t * (1 - root_tolerance()), t * (1 + root_tolerance())};
+    return Outcome::kYes;
+}
+
+template <typename T>
+Outcome try_blocks(const ExactRay& shadow, double end, double origin_error,
+                   const Triangle& triangle) {
+    const PlaneRoot<T> plane = plane_root<T>(shadow, triangle);
+    const Bounded<T>& n = plane.numerator;
+    const Bounded<T>& d = plane.denominator;
+    if (!n.sure() || !d.sure()) return Outcome::kUnsure;
+    if (n.sign() != d.sign()) return Outcome::kNo;
+    constexpr T kUp = 1 + gamma_of<T>(8);
+    constexpr T kDown = 1 - gamma_of<T>(8);
+    const T tiny = static_cast<T>(kUnderflow);
+    const T low = (std::fabs(n.value) - n.error) * kDown;
+    const T high = (std::fabs(n.value) + n.error) * kUp;
+    const T far = static_cast<T>(end);
+    if (low > far * (std::fabs(d.value) + d.error) * kUp + tiny) return Outcome::kNo;
+    const T norm1 = sum(magnitude(plane.normal));
+    const T norm1_error = gamma_of<T>(8) * sum(plane.normal_magnitude) + 16 * tiny;
+    const T error = static_cast<T>(origin_error);
+    if (high + tiny < error * (norm1 - norm1_error) * kDown) return Outcome::kNo;
+    const bool before_end = high + tiny < far * (std::fabs(d.value) - d.error) * kDown;
+    return before_end && low > error * (norm1 + norm1_error) * kUp + tiny ? Outcome::kYes
+                                                                          : Outcome::kUnsure;
+}
+
+[[gnu::cold, gnu::noinline]] std::optional<Root> slow_hit(const ExactRay& ray,
+                                                          const Triangle& triangle,
+                                                          StageCounts& counts) {
+    ++counts.wider;
+    Root found;
+    const Outcome outcome = try_hit<long double>(ray, triangle, found);
+    if (outcome == Outcome::kNo) return std::nullopt;
+    if (outcome == Outcome::kYes) return found;
     ++counts.exact;
     const ExactPlaneRoot root = exact_plane_root(ray, triangle);
     if (root.numerator.sign() * root.denominator.sign() <= 0) return std::nullopt;
     return root_from(root.numerator.approximate() / root.denominator.approximate());
 }
 
-[[gnu::cold, gnu::noinline]] bool exact_triangle_blocks(const ExactRay& shadow, double end,
-                                                        double origin_error,
-                                                        const Triangle& triangle,
-                                                        StageCounts& counts) {
+[[gnu::cold, gnu::noinline]] bool slow_blocks(const ExactRay& shadow, double end,
+                                              double origin_error, const Triangle& triangle,
+                                              StageCounts& counts) {
+    ++counts.wider;
+    const Outcome outcome = try_blocks<long double>(shadow, end, origin_error, triangle);
+    if (outcome != Outcome::kUnsure) return outcome == Outcome::kYes;
     ++counts.exact;
     const ExactPlaneRoot root = exact_plane_root(shadow, triangle);
-    const int side = root.denominator.sign();
-    if (root.numerator.sign() * side <= 0) return false;
+    if (root.numerator.sign() * root.denominator.sign() <= 0) return false;
     const Exact norm1 = abs(root.normal.x) + abs(root.normal.y) + abs(root.normal.z);
     const Exact distance = abs(root.numerator);
     if (compare(distance, Exact(origin_error) * norm1) <= 0) return false;
@@ -105,8 +110,10 @@ LineTest line_test_alone(const ExactRay& ray, const Triangle& t, StageCounts& co
     bool negative = false;
     bool all_sure = true;
     for (int i = 0; i < 3; ++i) {
-        const Bounded edge =
-            triple_product(ray.direction(), corner[(i + 2) % 3], corner[(i + 1) % 3]);
+        const Vector3& p = corner[(i + 2) % 3];
+        const Vector3& q = corner[(i + 1) % 3];
+        const Bounded<double> edge =
+            triple_product(ray.direction(), cross(p, q), cross_magnitude(p, q));
         signs[i] = edge.sure() ? edge.sign() : 0;
         all_sure = all_sure && signs[i] != 0;
         positive = positive || signs[i] > 0;
@@ -132,103 +139,23 @@ LineTest line_test_alone(const ExactRay& ray, const Triangle& t, StageCounts& co
 
 std::optional<Root> triangle_hit(const ExactRay& ray, const Triangle& triangle,
                                  StageCounts& counts) {
-    const PlaneRoot root = plane_root(ray, triangle);
-    const Bounded& n = root.numerator;
-    const Bounded& d = root.denominator;
-    if (n.sure() && d.sure() && n.sign() != d.sign()) return std::nullopt;
-    constexpr double kShare = 0.4375 * root_tolerance();  // two of these and three roundings
-    const double t = n.value / d.value;
-    if (n.within(kShare) && d.within(kShare) && t > kSmallestRoot && t < kLargestRoot)
-        return Root{t, t * (1 - root_tolerance()), t * (1 + root_tolerance())};
-    ++counts.wider;
-    return exact_triangle_hit(ray, triangle, counts);
+    Root root;
+    switch (try_hit<double>(ray, triangle, root)) {
+        case Outcome::kNo:
+            return std::nullopt;
+        case Outcome::kYes:
+            return root;
+        case Outcome::kUnsure:
+            break;
+    }
+    return slow_hit(ray, triangle, counts);
 }
 
 bool triangle_blocks(const ExactRay& shadow, double end, double origin_error,
                      const Triangle& triangle, StageCounts& counts) {
-    const PlaneRoot root = plane_root(shadow, triangle);
-    const Bounded& n = root.numerator;
-    const Bounded& d = root.denominator;
-    if (n.sure() && d.sure()) {
-        if (n.sign() != d.sign()) return false;
-        const double low = (std::fabs(n.value) - n.error) * (1 - gamma(2));
-        const double high = (std::fabs(n.value) + n.error) * (1 + gamma(2));
-        if (low > end * (std::fabs(d.value) + d.error) * (1 + gamma(3))) return false;
-        const double norm1 = sum(magnitude(root.normal));
-        const double norm1_error = gamma(6) * sum(root.normal_magnitude);
-        const double band = origin_error * (norm1 + norm1_error) * (1 + gamma(4));
-        if (low > band + kUnderflow && high < end * (std::fabs(d.value) - d.error) * (1 - gamma(3)))
-            return true;
-        if (high + kUnderflow < origin_error * (norm1 - norm1_error) * (1 - gamma(4))) return false;
-    }
-    ++counts.wider;
-    return exact_triangle_blocks(shadow, end, origin_error, triangle, counts);
+    const Outcome outcome = try_blocks<double>(shadow, end, origin_error, triangle);
+    if (outcome != Outcome::kUnsure) return outcome == Outcome::kYes;
+    return slow_blocks(shadow, end, origin_error, triangle, counts);
 }
 
-}  // namespace detail
-
-namespace {
-
-/// The weights and the point of the exact stage: the point is (S a + V e1 + W e2) / S, rounded.
-[[gnu::cold, gnu::noinline]] SurfacePoint exact_surface_point(const ExactRay& ray,
-                                                              const Triangle& t) {
-    const ExactVector o(ray.origin());
-    const ExactVector d = detail::exact_direction(ray);
-    const ExactVector a(t.a);
-    const ExactVector e1 = ExactVector(t.b) - a;
-    const ExactVector e2 = ExactVector(t.c) - a;
-    const ExactVector from = a - o;
-    const ExactVector normal = cross(e1, e2);
-    const Exact s = -dot(d, normal);
-    const Exact v = dot(d, cross(from, e2));
-    const Exact w = dot(d, cross(e1, from));
-    const WideDouble total = s.approximate();
-    SurfacePoint result;
-    for (int i = 0; i < 3; ++i)
-        result.point[i] = ((s * a[i] + v * e1[i] + w * e2[i]).approximate() / total).rounded();
-    result.error = gamma(8) * max_norm(result.point) + kUnderflow;
-    result.normal =
-        detail::unit({normal.x.approximate(), normal.y.approximate(), normal.z.approximate()});
-    result.uv = {(v.approximate() / total).rounded(), (w.approximate() / total).rounded()};
-    return result;
-}
-
-}  // namespace
-
-SurfacePoint surface_point(const ExactRay& ray, const Triangle& t) {
-    using detail::Bounded;
-    const Vector3 from = t.a - ray.origin();
-    const Vector3 e1 = t.b - t.a;
-    const Vector3 e2 = t.c - t.a;
-    const Vector3 normal = cross(e1, e2);
-    const Bounded s = detail::triple_product(ray.direction(), e2, e1);
-    const Bounded v = detail::triple_product(ray.direction(), from, e2);
-    const Bounded w = detail::triple_product(ray.direction(), e1, from);
-    SurfacePoint result;
-    result.uv = {v.value / s.value, w.value / s.value};
-    result.point = t.a + (e1 * result.uv.x + e2 * result.uv.y);
-    // Errors of the two weights, then of the point. [numerics: surface points]
-    const double size = std::fabs(s.value) - s.error;
-    const double n1 = detail::largest(e1);
-    const double n2 = detail::largest(e2);
-    const double x = std::fabs(result.uv.x);
-    const double y = std::fabs(result.uv.y);
-    const double weights =
-        (v.error + x * s.error) / size * n1 + (w.error + y * s.error) / size * n2;
-    result.error = (weights + gamma(6) * (x * n1 + y * n2)) * (1 + gamma(16)) +
-                   gamma(2) * max_norm(result.point);
-    const double corners = std::fmax(max_norm(t.a), std::fmax(max_norm(t.b), max_norm(t.c)));
-    // The normal keeps half its digits at least: its error is gamma(4) times the magnitudes.
-    const Vector3 magnitudes = detail::cross_magnitude(e1, e2);
-    const double length1 = detail::sum(detail::magnitude(normal));
-    const bool well_shaped = detail::sum(magnitudes) < length1 / std::sqrt(kUnitRoundoff) &&
-                             length1 > detail::kSmallestSquare && length1 < detail::kLargestSquare;
-    if (!(s.sure() && result.error < 8 * root_tolerance() * corners && well_shaped))
-        return exact_surface_point(ray, t);
-    result.normal = normalized(normal);
-    const auto clamped = [](double weight) { return weight < 0 ? 0 : weight > 1 ? 1 : weight; };
-    result.uv = {clamped(result.uv.x), clamped(result.uv.y)};
-    return result;
-}
-
-}  // namespace nuvo
+}  // namespace nuvo::detail

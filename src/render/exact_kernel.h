@@ -3,6 +3,7 @@
 #include <limits>
 #include <optional>
 #include <type_traits>
+#include <vector>
 
 #include "nuvo/geometry/predicates.h"
 #include "nuvo/render/primitives.h"
@@ -36,21 +37,23 @@ class ExactKernel {
     static constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
     ExactKernel(const Scene& scene, const Primitives& primitives, std::optional<double> bias)
-        : store_(scene, primitives), bias_(bias) {}
+        : store_(scene, primitives), triangles_(triangle_bounds(scene, primitives)), bias_(bias) {}
 
     const PrimitiveSource& source(PrimitiveId id) const { return store_.source(id); }
     const StageCounts& stage_counts() const { return counts_; }
 
-    PreparedRay prepare(const Ray& ray) const { return ExactRay(ray); }
+    PreparedRay prepare(const Ray& ray) const { return ExactRay(ray, triangles_); }
     Ray walk_ray(const ExactRay& ray) const { return {ray.origin(), ray.direction()}; }
     Ray nudged_ray(const ExactRay& ray) const { return walk_ray(ray); }
 
-    /// Replaces `best` by the hit on primitive `id` if that is nearer, or as near and earlier in
-    /// the document.
-    void closest(const ExactRay& ray, PrimitiveId id, std::optional<Hit>& best) const {
-        const std::optional<Hit> hit =
-            store_.visit(id, [&](const auto& primitive) { return hit_on(ray, primitive, id); });
-        if (hit && (!best || precedes(ray, *hit, *best))) best = hit;
+    /// Replaces `best` by the nearest hit on the primitives of `range` if that is nearer, or as
+    /// near and earlier in the document.
+    void closest(const ExactRay& ray, PrimitiveRange range, std::optional<Hit>& best) const {
+        for (PrimitiveId id = range.first; id < range.last; ++id) {
+            const std::optional<Hit> hit =
+                store_.visit(id, [&](const auto& primitive) { return hit_on(ray, primitive, id); });
+            if (hit && (!best || precedes(ray, *hit, *best))) best = hit;
+        }
     }
     double t(const Hit& hit) const { return hit.root.t; }
     double upper_t(const Hit& hit) const { return hit.root.high; }
@@ -72,23 +75,39 @@ class ExactKernel {
         const double error = bias_ ? 0 : surface.error;
         const auto from = bias_ ? std::nullopt : std::optional<PrimitiveId>(surface.primitive);
         if (light.kind == Light::Kind::kDirectional)
-            return {ExactRay(Ray{origin, -light.direction}), kInfinity, error, from};
-        return {ExactRay::between(origin, light.location), 1, error, from};
+            return {ExactRay(Ray{origin, -light.direction}, triangles_), kInfinity, error, from};
+        return {ExactRay::between(origin, light.location, triangles_), 1, error, from};
     }
 
-    bool blocks(const Shadow& shadow, PrimitiveId id) const {
-        return blocks_before(shadow, shadow.end, id);
+    bool blocks(const Shadow& shadow, PrimitiveRange range) const {
+        for (PrimitiveId id = range.first; id < range.last; ++id)
+            if (blocks_before(shadow, shadow.end, id)) return true;
+        return false;
     }
-    /// Where the shadow ray first meets the primitive, before or behind the light; infinity: never.
-    double shadow_t(const Shadow& shadow, PrimitiveId id) const {
-        if (!blocks_before(shadow, kInfinity, id)) return kInfinity;
-        return store_.visit(id, [&](const auto& primitive) {
-            const std::optional<Hit> hit = hit_on(shadow.ray, primitive, id);
-            return hit ? hit->root.t : kInfinity;
-        });
+    /// Where the shadow ray first meets the range, before or behind the light; infinity: never.
+    double shadow_t(const Shadow& shadow, PrimitiveRange range) const {
+        double nearest = kInfinity;
+        for (PrimitiveId id = range.first; id < range.last; ++id) {
+            if (!blocks_before(shadow, kInfinity, id)) continue;
+            const std::optional<Hit> hit = store_.visit(
+                id, [&](const auto& primitive) { return hit_on(shadow.ray, primitive, id); });
+            if (hit) nearest = std::fmin(nearest, hit->root.t);
+        }
+        return nearest;
     }
 
   private:
+    // Holds every triangle: one bound for all edge functions of a ray.
+    static Bounds3 triangle_bounds(const Scene& scene, const Primitives& primitives) {
+        Bounds3 all;
+        for (std::size_t i = 0; i < primitives.item_count(); ++i) {
+            const PrimitiveSource& first = primitives.sources[primitives.item_first[i]];
+            if (std::holds_alternative<TriangleMesh>(scene.objects[first.object].shape))
+                all = all.extended(primitives.item_boxes[i]);
+        }
+        return all;
+    }
+
     std::optional<Hit> hit_on(const ExactRay& ray, const Triangle& triangle, PrimitiveId id) const {
         const std::optional<Root> root = hit(ray, triangle, counts_);
         if (!root) return std::nullopt;
@@ -124,7 +143,8 @@ class ExactKernel {
         });
     }
 
-    PrimitiveStore<Triangle, Sphere, Ellipsoid> store_;
+    PrimitiveStore<std::vector<Triangle>, Sphere, Ellipsoid> store_;
+    Bounds3 triangles_;
     std::optional<double> bias_;
     mutable StageCounts counts_;
 };

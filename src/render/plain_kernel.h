@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "nuvo/geometry/plain_tests.h"
+#include "nuvo/geometry/plain_triangles.h"
 #include "nuvo/render/primitives.h"
 #include "primitive_store.h"
 #include "surface.h"
@@ -15,10 +16,6 @@ namespace nuvo {
 /// decides; the kernel is there to be measured against ExactKernel.
 template <typename T>
 class PlainKernel {
-    struct PlainTriangle {
-        Vec3<T> a, b, c;
-        explicit PlainTriangle(const Triangle& t) : a(t.a), b(t.b), c(t.c) {}
-    };
     struct PlainSphere {
         Vec3<T> center;
         T radius;
@@ -26,6 +23,7 @@ class PlainKernel {
             : center(s.center), radius(static_cast<T>(s.radius)) {}
     };
     using PlainEllipsoid = plain::LocalEllipsoid<T>;
+    using Triangles = plain::Triangles<T>;
 
   public:
     using Scalar = T;
@@ -58,11 +56,10 @@ class PlainKernel {
     Ray walk_ray(const RayT<T>& ray) const { return {Point3(ray.origin), Vector3(ray.direction)}; }
     const RayT<T>& nudged_ray(const RayT<T>& ray) const { return ray; }
 
-    void closest(const RayT<T>& ray, PrimitiveId id, std::optional<Hit>& best) const {
-        store_.visit(id, [&](const auto& primitive) {
-            const std::optional<plain::Hit<T>> hit = test(ray, primitive);
-            if (hit && (!best || hit->t < best->t || (hit->t == best->t && id < best->primitive)))
-                best = Hit{id, hit->t, hit->uv};
+    void closest(const RayT<T>& ray, PrimitiveRange range, std::optional<Hit>& best) const {
+        for_each_hit(ray, range, [&](PrimitiveId id, const plain::Hit<T>& hit) {
+            if (!best || hit.t < best->t || (hit.t == best->t && id < best->primitive))
+                best = Hit{id, hit.t, hit.uv};
         });
     }
     T t(const Hit& hit) const { return hit.t; }
@@ -89,21 +86,35 @@ class PlainKernel {
         return {{Vec3<T>(origin), way / distance}, distance, from};
     }
 
-    bool blocks(const Shadow& shadow, PrimitiveId id) const {
-        return shadow_t(shadow, id) < shadow.end;
+    bool blocks(const Shadow& shadow, PrimitiveRange range) const {
+        return shadow_t(shadow, range) < shadow.end;
     }
-    /// Where the shadow ray first meets the primitive, before or behind the light; infinity: never.
-    T shadow_t(const Shadow& shadow, PrimitiveId id) const {
-        return store_.visit(id, [&](const auto& primitive) {
-            if (shadow.from && *shadow.from == id) return other_root(shadow.ray, primitive);
-            const std::optional<plain::Hit<T>> hit = test(shadow.ray, primitive);
-            return hit ? hit->t : kInfinity;
+    /// Where the shadow ray first meets the range, before or behind the light; infinity: never.
+    T shadow_t(const Shadow& shadow, PrimitiveRange range) const {
+        T nearest = kInfinity;
+        for_each_hit(shadow.ray, range, [&](PrimitiveId id, const plain::Hit<T>& hit) {
+            const bool self = shadow.from && *shadow.from == id;
+            nearest = std::min(nearest, self ? other_root(shadow.ray, id) : hit.t);
         });
+        return nearest;
     }
 
   private:
-    static std::optional<plain::Hit<T>> test(const RayT<T>& ray, const PlainTriangle& p) {
-        return plain::hit(ray, p.a, p.b, p.c);
+    // Calls `use(id, hit)` for each primitive of the range that the ray hits.
+    template <typename Use>
+    void for_each_hit(const RayT<T>& ray, PrimitiveRange range, Use&& use) const {
+        store_.for_each_run(
+            range,
+            [&](const Triangles& triangles, std::size_t index, PrimitiveRange run) {
+                triangles.for_each_hit(ray, index, index + (run.last - run.first),
+                                       [&](std::size_t i, const plain::Hit<T>& hit) {
+                                           use(static_cast<PrimitiveId>(run.first + (i - index)),
+                                               hit);
+                                       });
+            },
+            [&](PrimitiveId id, const auto& primitive) {
+                if (const std::optional<plain::Hit<T>> hit = test(ray, primitive)) use(id, *hit);
+            });
     }
     static std::optional<plain::Hit<T>> test(const RayT<T>& ray, const PlainSphere& p) {
         return plain::hit(ray, p.center, p.radius);
@@ -112,8 +123,9 @@ class PlainKernel {
         return plain::hit(ray, p);
     }
 
-    static Vec3<T> geometric_normal(const PlainTriangle& p, const Vec3<T>&) {
-        return normalized(cross(p.b - p.a, p.c - p.a));  // [eq. 47]
+    // [eq. 47]
+    static Vec3<T> geometric_normal(const plain::Corners<T>& p, const Vec3<T>&) {
+        return normalized(cross(p.b - p.a, p.c - p.a));
     }
     static Vec3<T> geometric_normal(const PlainSphere& p, const Vec3<T>& point) {
         return normalized(point - p.center);
@@ -124,21 +136,25 @@ class PlainKernel {
         return normalized(p.inverse[0] * local.x + p.inverse[1] * local.y + p.inverse[2] * local.z);
     }
 
-    // A ray that starts on the primitive: a triangle is not met again, a sphere at -2 (f.d) /
-    // (d.d).
-    static T other_root(const RayT<T>&, const PlainTriangle&) { return kInfinity; }
-    static T other_root(const RayT<T>& ray, const PlainSphere& p) {
-        return other_root(ray.origin - p.center, ray.direction);
-    }
-    static T other_root(const RayT<T>& ray, const PlainEllipsoid& p) {
-        return other_root(p.local(ray.origin - p.center), p.local(ray.direction));
+    // A ray that starts on the primitive does not meet a triangle again, and a sphere at
+    // -2 (f.d) / (d.d).
+    T other_root(const RayT<T>& ray, PrimitiveId id) const {
+        return store_.visit(id, [&](const auto& p) {
+            using Kind = std::decay_t<decltype(p)>;
+            if constexpr (std::is_same_v<Kind, PlainSphere>)
+                return other_root(ray.origin - p.center, ray.direction);
+            else if constexpr (std::is_same_v<Kind, PlainEllipsoid>)
+                return other_root(p.local(ray.origin - p.center), p.local(ray.direction));
+            else
+                return kInfinity;
+        });
     }
     static T other_root(const Vec3<T>& f, const Vec3<T>& d) {
         const T t = -2 * dot(f, d) / dot(d, d);
         return t > 0 ? t : kInfinity;
     }
 
-    PrimitiveStore<PlainTriangle, PlainSphere, PlainEllipsoid> store_;
+    PrimitiveStore<Triangles, PlainSphere, PlainEllipsoid> store_;
     std::optional<double> bias_;
 };
 

@@ -7,9 +7,10 @@
 
 namespace nuvo {
 
-/// The primitives' coordinates side by side, one array a kind, found by PrimitiveId. A kind that
-/// the scene lacks costs nothing. The three types are made from Triangle, Sphere and Ellipsoid.
-template <typename TriangleT, typename SphereT, typename EllipsoidT>
+/// The primitives' coordinates side by side, one array a kind, found by PrimitiveId. A kind that the
+/// scene lacks costs nothing. TriangleList takes Triangles by push_back; the other two types are
+/// made from Sphere and Ellipsoid.
+template <typename TriangleList, typename SphereT, typename EllipsoidT>
 class PrimitiveStore {
   public:
     PrimitiveStore(const Scene& scene, const Primitives& primitives)
@@ -30,7 +31,36 @@ class PrimitiveStore {
         return use(ellipsoids_[index]);
     }
 
+    /// The range in order: `use_triangles(list, index, run)` for each run of triangles, which stand
+    /// in the list from `index` on, and `use_other(id, primitive)` for each sphere and ellipsoid.
+    template <typename UseTriangles, typename UseOther>
+    void for_each_run(PrimitiveRange range, UseTriangles&& use_triangles,
+                      UseOther&& use_other) const {
+        for (PrimitiveId id = range.first; id < range.last;) {
+            const std::uint32_t slot = slots_[id];
+            if (slot < kSphere) {
+                const PrimitiveId end = end_of_triangles(id, range.last);
+                use_triangles(triangles_, slot, PrimitiveRange{id, end});
+                id = end;
+            } else {
+                if (slot < kEllipsoid)
+                    use_other(id, spheres_[slot & kIndexMask]);
+                else
+                    use_other(id, ellipsoids_[slot & kIndexMask]);
+                ++id;
+            }
+        }
+    }
+
   private:
+    PrimitiveId end_of_triangles(PrimitiveId id, PrimitiveId last) const {
+        // All between two triangles are triangles if as many indices lie between them.
+        if (slots_[last - 1] < kSphere && slots_[last - 1] - slots_[id] == last - 1 - id)
+            return last;
+        while (id < last && slots_[id] < kSphere) ++id;
+        return id;
+    }
+
     // A slot is an index with its kind in the two highest bits.
     static constexpr std::uint32_t kSphere = 1U << 30;
     static constexpr std::uint32_t kEllipsoid = 2U << 30;
@@ -39,7 +69,7 @@ class PrimitiveStore {
     void add(const Object& object, const PrimitiveSource& source) {
         if (const auto* mesh = std::get_if<TriangleMesh>(&object.shape)) {
             slots_.push_back(static_cast<std::uint32_t>(triangles_.size()));
-            triangles_.push_back(TriangleT(mesh->triangle(source.triangle)));
+            triangles_.push_back(mesh->triangle(source.triangle));
         } else if (const auto* sphere = std::get_if<Sphere>(&object.shape)) {
             slots_.push_back(kSphere | static_cast<std::uint32_t>(spheres_.size()));
             spheres_.push_back(SphereT(*sphere));
@@ -51,7 +81,7 @@ class PrimitiveStore {
 
     const std::vector<PrimitiveSource>& sources_;
     std::vector<std::uint32_t> slots_;
-    std::vector<TriangleT> triangles_;
+    TriangleList triangles_;
     std::vector<SphereT> spheres_;
     std::vector<EllipsoidT> ellipsoids_;
 };

@@ -6,8 +6,8 @@
 #include "nuvo/render/primitives.h"
 #include "nuvo/render/render.h"
 
-// The ways to find what a ray meets. Each search is built from a kernel, which answers for one
-// primitive and one ray (exact_kernel.h, plain_kernel.h), and offers
+// The ways to find what a ray meets. Each search is built from a kernel, which answers for one ray
+// and the primitives of an item (exact_kernel.h, plain_kernel.h), and offers
 //   closest(ray)     -> std::optional<Kernel::Hit>
 //   occluded(shadow) -> bool
 
@@ -31,22 +31,20 @@ template <typename Kernel>
 class BruteForceSearch {
   public:
     BruteForceSearch(const Kernel& kernel, const Primitives& primitives)
-        : kernel_(kernel), count_(static_cast<PrimitiveId>(primitives.sources.size())) {}
+        : kernel_(kernel), all_(primitives.all()) {}
 
     std::optional<typename Kernel::Hit> closest(const typename Kernel::PreparedRay& ray) const {
         std::optional<typename Kernel::Hit> best;
-        for (PrimitiveId id = 0; id < count_; ++id) kernel_.closest(ray, id, best);
+        kernel_.closest(ray, all_, best);
         return best;
     }
     bool occluded(const typename Kernel::Shadow& shadow) const {
-        for (PrimitiveId id = 0; id < count_; ++id)
-            if (kernel_.blocks(shadow, id)) return true;
-        return false;
+        return kernel_.blocks(shadow, all_);
     }
 
   private:
     const Kernel& kernel_;
-    PrimitiveId count_;
+    PrimitiveRange all_;
 };
 
 /// Through the octree by the walk without an epsilon: no hit is missed.
@@ -63,48 +61,38 @@ class ExactSearch {
 
     std::optional<typename Kernel::Hit> closest(const typename Kernel::PreparedRay& ray) {
         std::optional<typename Kernel::Hit> best;
-        bool first_leaf = true;
+        bool entered = false;
         walk_(kernel_.walk_ray(ray), Kernel::kInfinity, [&](const Node& leaf, double exit) {
-            // What is listed near a leaf but met beyond it is met again in its own leaf, so the
+            if (!entered && !octree_.root().is_leaf()) counter_.count_search();
+            entered = true;
+            counter_.count_tests(leaf.item_count);
+            for (ItemId item : octree_.contents(leaf))
+                kernel_.closest(ray, primitives_.of_item(item), best);
+            // What is listed in a leaf but met beyond it is met again in its own leaf, so the
             // nearest hit is final once the ray leaves the leaf no earlier than there.
-            count_leaf(leaf, first_leaf);
-            for_each_primitive(leaf, [&](PrimitiveId id) {
-                kernel_.closest(ray, id, best);
-                return false;
-            });
-            return best && kernel_.upper_t(*best) <= exit;
+            const bool found = best && kernel_.upper_t(*best) <= exit;
+            if (!found) counter_.count_search();
+            return found;
         });
         return best;
     }
 
+    /// Starts in the leaf that holds the shadow ray's origin, which needs no search. [5.3.2]
     bool occluded(const typename Kernel::Shadow& shadow) {
         bool blocked = false;
-        bool first_leaf = false;  // it holds the origin and is not searched for
-        walk_(kernel_.walk_ray(shadow.ray), shadow.end, [&](const Node& leaf, double) {
-            count_leaf(leaf, first_leaf);
-            return blocked = for_each_primitive(
-                       leaf, [&](PrimitiveId id) { return kernel_.blocks(shadow, id); });
+        walk_(kernel_.walk_ray(shadow.ray), shadow.end, [&](const Node& leaf, double exit) {
+            counter_.count_tests(leaf.item_count);
+            for (ItemId item : octree_.contents(leaf)) {
+                blocked = kernel_.blocks(shadow, primitives_.of_item(item));
+                if (blocked) return true;
+            }
+            if (exit < shadow.end) counter_.count_search();
+            return false;
         });
         return blocked;
     }
 
   private:
-    // [5.7] The root alone is not searched for either.
-    void count_leaf(const Node& leaf, bool& first_leaf) {
-        if (!first_leaf || !octree_.root().is_leaf()) counter_.count_search();
-        first_leaf = false;
-        counter_.count_tests(leaf.item_count);
-    }
-
-    template <typename Visit>
-    bool for_each_primitive(const Node& leaf, Visit&& visit) const {
-        for (ItemId item : octree_.contents(leaf))
-            for (PrimitiveId id = primitives_.item_first[item];
-                 id < primitives_.item_first[item + 1]; ++id)
-                if (visit(id)) return true;
-        return false;
-    }
-
     const Kernel& kernel_;
     const Primitives& primitives_;
     const Octree& octree_;
@@ -133,8 +121,7 @@ class NudgedSearch {
         walk(line, [&](const Node& leaf) {
             for (ItemId item : octree_.contents(leaf)) {
                 std::optional<typename Kernel::Hit> nearest;
-                for_each_primitive(item,
-                                   [&](PrimitiveId id) { kernel_.closest(ray, id, nearest); });
+                kernel_.closest(ray, primitives_.of_item(item), nearest);
                 if (nearest && inside(leaf, line, kernel_.t(*nearest)) &&
                     (!best || kernel_.t(*nearest) < kernel_.t(*best)))
                     best = nearest;
@@ -150,10 +137,7 @@ class NudgedSearch {
         const RayT<Scalar> line(kernel_.nudged_ray(shadow.ray));
         walk(line, [&](const Node& leaf) {
             for (ItemId item : octree_.contents(leaf)) {
-                Scalar nearest = Kernel::kInfinity;
-                for_each_primitive(item, [&](PrimitiveId id) {
-                    nearest = std::min(nearest, kernel_.shadow_t(shadow, id));
-                });
+                const Scalar nearest = kernel_.shadow_t(shadow, primitives_.of_item(item));
                 if (nearest < first && inside(leaf, line, nearest)) first = nearest;
             }
             return first < Kernel::kInfinity;
@@ -177,13 +161,6 @@ class NudgedSearch {
 
     bool inside(const Node& leaf, const RayT<Scalar>& line, Scalar t) const {
         return decltype(walk_)::bounds_of(leaf).inflated(kTolerance).contains(line.at(t));
-    }
-
-    template <typename Visit>
-    void for_each_primitive(ItemId item, Visit&& visit) const {
-        for (PrimitiveId id = primitives_.item_first[item]; id < primitives_.item_first[item + 1];
-             ++id)
-            visit(id);
     }
 
     const Kernel& kernel_;

@@ -54,7 +54,7 @@ void expect_the_truth(const ExactRay& ray, const Primitive& primitive, double re
     expect_component(surface.point.y, p.y, surface.error);
     expect_component(surface.point.z, p.z, surface.error);
     const double size = max_norm(primitive.center) + reach;
-    EXPECT_LE(surface.error, 2 * root_tolerance() * size + 2 * kUnderflow);
+    EXPECT_LE(surface.error, 1.01 * surface_tolerance() * size + 2 * kUnderflow);
     EXPECT_NEAR(length(surface.normal), 1, 1e-15);
 }
 

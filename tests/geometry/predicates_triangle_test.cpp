@@ -68,7 +68,7 @@ TEST_P(TrianglePredicate, SurfacePointKeepsItsBound) {
         const SurfacePoint found = surface_point(ray, triangle);
         const double corners =
             std::fmax(max_norm(triangle.a), std::fmax(max_norm(triangle.b), max_norm(triangle.c)));
-        ASSERT_LE(found.error, 9 * root_tolerance() * corners + 2 * kUnderflow);
+        ASSERT_LE(found.error, 1.01 * surface_tolerance() * corners + 2 * kUnderflow);
         ASSERT_TRUE(within(found.point.x, oracle::real(p.x), found.error));
         ASSERT_TRUE(within(found.point.y, oracle::real(p.y), found.error));
         ASSERT_TRUE(within(found.point.z, oracle::real(p.z), found.error));

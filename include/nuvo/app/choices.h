@@ -16,6 +16,8 @@ struct Choice {
     std::string_view name;
     E value;
 };
+template <typename E>
+Choice(const char*, E) -> Choice<E>;  // clang 14 does not deduce it for an aggregate
 
 inline constexpr std::array kOctreeTypes{Choice{"uniform", OctreeType::kUniform},
                                          Choice{"nonuniform", OctreeType::kNonuniform}};

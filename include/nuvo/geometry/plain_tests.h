@@ -16,7 +16,7 @@ struct Hit {
     Vec2<T> uv;  ///< triangle: weights of b and c; else 0
 };
 
-/// Moeller and Trumbore, both sides. [thesis 4.2.4]
+/// Moeller and Trumbore, both sides; the division waits until the hit is sure. [thesis 4.2.4]
 template <typename T>
 std::optional<Hit<T>> hit(const RayT<T>& ray, const Vec3<T>& a, const Vec3<T>& b,
                           const Vec3<T>& c) {
@@ -24,17 +24,17 @@ std::optional<Hit<T>> hit(const RayT<T>& ray, const Vec3<T>& a, const Vec3<T>& b
     const Vec3<T> e2 = c - a;
     const Vec3<T> p = cross(ray.direction, e2);
     const T determinant = dot(e1, p);
-    if (determinant == 0) return std::nullopt;
-    const T inverse = 1 / determinant;
     const Vec3<T> s = ray.origin - a;
-    const T u = dot(s, p) * inverse;
-    if (!(u >= 0 && u <= 1)) return std::nullopt;
+    const T side = determinant < 0 ? T(-1) : T(1);
+    const T size = determinant * side;
+    const T u = dot(s, p) * side;
+    if (!(u >= 0 && u <= size)) return std::nullopt;
     const Vec3<T> q = cross(s, e1);
-    const T v = dot(ray.direction, q) * inverse;
-    if (!(v >= 0 && u + v <= 1)) return std::nullopt;
-    const T t = dot(e2, q) * inverse;
+    const T v = dot(ray.direction, q) * side;
+    if (!(v >= 0 && u + v <= size) || size == 0) return std::nullopt;
+    const T t = dot(e2, q) * side / size;
     if (!(t > 0)) return std::nullopt;
-    return Hit<T>{t, {u, v}};
+    return Hit<T>{t, {u / size, v / size}};
 }
 
 /// The roots of |f + t d|^2 = R^2, in the order of t, by the quadratic formula. [eq. 22-24]

@@ -19,7 +19,7 @@ namespace nuvo {
 
 /// Counts how often the cheap stage did not decide.
 struct StageCounts {
-    std::uint64_t wider = 0;  ///< tighter bounds were computed, in double
+    std::uint64_t wider = 0;  ///< tighter bounds were computed, in double or in 64 bits
     std::uint64_t exact = 0;  ///< exact arithmetic decided
 };
 
@@ -137,15 +137,6 @@ namespace detail {
 /// Whether the line has exactly one point in common with the triangle.
 enum class LineTest : std::uint8_t { kMisses, kMeets };
 
-/// Largest of |x|, |y|, |z|; unlike max_norm, a NaN may be lost (the products see it).
-inline double largest(const Vector3& v) {
-    const double x = std::fabs(v.x);
-    const double y = std::fabs(v.y);
-    const double z = std::fabs(v.z);
-    const double xy = x > y ? x : y;
-    return xy > z ? xy : z;
-}
-
 /// The line test where the ray's own bound does not decide, or where it has none.
 LineTest line_test_alone(const ExactRay& ray, const Triangle& triangle, StageCounts& counts);
 
@@ -218,6 +209,9 @@ bool sphere_blocks(const ExactRay&, double end, double origin_error, const Spher
 
 /// The relative error that every Root keeps, also at tangency: 2^-44.
 constexpr double root_tolerance() { return 512 * kUnitRoundoff; }
+/// What a SurfacePoint's error may reach, relative to the primitive's coordinates: 2^-41. It is
+/// usually far less; beyond this the point is computed anew, more precisely.
+constexpr double surface_tolerance() { return 8 * root_tolerance(); }
 
 /// The hit at t > 0. Edges and vertices belong to the triangle; a ray within its plane, and a
 /// triangle without area, are never hit.

@@ -13,6 +13,12 @@ namespace nuvo {
 /// order; of two hits at equal t the lower id wins.
 using PrimitiveId = std::uint32_t;
 
+/// The primitives of one leaf item.
+struct PrimitiveRange {
+    PrimitiveId first = 0;
+    PrimitiveId last = 0;  ///< one past the end
+};
+
 /// Where a primitive comes from.
 struct PrimitiveSource {
     std::uint32_t object = 0;    ///< index into Scene::objects
@@ -29,6 +35,10 @@ struct Primitives {
     std::size_t zero_area_triangles = 0;  ///< left out: they can never be hit
 
     std::size_t item_count() const { return item_boxes.size(); }
+    PrimitiveRange of_item(std::size_t item) const {
+        return {item_first[item], item_first[item + 1]};
+    }
+    PrimitiveRange all() const { return {0, static_cast<PrimitiveId>(sources.size())}; }
 };
 
 /// Flattens `scene` with single primitives or whole shapes as leaf items.

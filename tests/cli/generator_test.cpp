@@ -1,0 +1,335 @@
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <set>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Outcome {
+    int exit_code = -1;
+    std::string text;
+};
+
+/// Runs the generator through the shell; `text` is what it wrote to standard output, or where the
+/// arguments send the rest.
+Outcome generate(const std::string& arguments) {
+    Outcome outcome;
+    const std::string command = std::string(NUVO_GENERATOR) + " " + arguments;
+    FILE* const pipe = popen(command.c_str(), "r");
+    if (pipe == nullptr) return outcome;
+    std::array<char, 65536> buffer;
+    std::size_t count = 0;
+    while ((count = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0) {
+        outcome.text.append(buffer.data(), count);
+    }
+    const int status = pclose(pipe);
+    outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return outcome;
+}
+
+std::string read(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    EXPECT_TRUE(file) << path;
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::string test_file(const std::string& name) {
+    return read(fs::path(NUVO_SOURCE_DIR) / "testfiles" / (name + ".x3d"));
+}
+
+/// A folder that is empty at first and gone afterwards.
+class TemporaryFolder {
+  public:
+    TemporaryFolder() {
+        std::string name = (fs::temp_directory_path() / "nuvo_generator_XXXXXX").string();
+        if (mkdtemp(name.data()) != nullptr) path_ = name;
+    }
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+    ~TemporaryFolder() {
+        std::error_code ignored;
+        fs::remove_all(path_, ignored);
+    }
+    const fs::path& path() const { return path_; }
+
+  private:
+    fs::path path_;
+};
+
+std::size_t occurrences(std::string_view text, std::string_view word) {
+    std::size_t count = 0;
+    for (auto at = text.find(word); at != text.npos; at = text.find(word, at + word.size())) {
+        ++count;
+    }
+    return count;
+}
+
+/// The numbers of every attribute that starts with `start`, in order.
+std::vector<std::vector<double>> number_lists(const std::string& text, const std::string& start) {
+    std::vector<std::vector<double>> lists;
+    for (auto at = text.find(start); at != text.npos; at = text.find(start, at + 1)) {
+        const auto from = at + start.size();
+        std::istringstream in(text.substr(from, text.find('\'', from) - from));
+        lists.emplace_back(std::istream_iterator<double>(in), std::istream_iterator<double>());
+    }
+    return lists;
+}
+
+std::vector<std::string> scene_names() {
+    std::vector<std::string> names;
+    std::istringstream lines(generate("--list").text);
+    for (std::string line; std::getline(lines, line);) {
+        names.push_back(line.substr(0, line.find(' ')));
+    }
+    return names;
+}
+
+// The listing as the thesis prints it, line numbers and all. They stand in a column of two places,
+// so that line 5 starts with "5 " and line 10 with "10", and the text follows.
+constexpr std::string_view kPrintedAppendixF =
+    "1 <Scene>\n"
+    "2   <Viewpoint position='0 0 10' />\n"
+    "3   <Background groundColor=\"0.43 0.54 0.72\"\n"
+    "4     skyColor=\"0.9 0.74 0.9\" />\n"
+    "5   <SpotLight direction='0 0 -1' location='0 0 10' cutOffAngle='0.3' color='1 1\n"
+    "6     1' beamWidth='0.1' />\n"
+    "7   <Transform translation='0 0 0'>\n"
+    "8     <Shape>\n"
+    "9       <Sphere radius='4' />\n"
+    "10      <Appearance>\n"
+    "11        <Material diffuseColor='1.0 0 0' />\n"
+    "12      </Appearance>\n"
+    "13    </Shape>\n"
+    "14  </Transform>\n"
+    "15</Scene>\n";
+
+TEST(Generator, ListsTheScenesOfTheThesisAndTheDefaultFile) {
+    const std::vector<std::string> names = scene_names();
+    const std::set<std::string> expected{
+        "trianglemesh", "appendixE", "appendixF", "appendixG", "figure25", "figure27", "figure28",
+        "figure29",     "icosphere", "teapot",    "test1",     "test2",    "test3",    "test4"};
+    EXPECT_EQ(std::set<std::string>(names.begin(), names.end()), expected);
+    EXPECT_EQ(names.size(), expected.size());
+}
+
+TEST(Generator, WritesEveryTestFileAgainByteForByte) {
+    for (const std::string& name : scene_names()) {
+        const Outcome outcome = generate(name);
+        EXPECT_EQ(outcome.exit_code, 0) << name;
+        EXPECT_TRUE(outcome.text == test_file(name)) << name << " differs from testfiles/";
+    }
+}
+
+TEST(Generator, AllWritesTheSameFilesIntoAFolderItMakes) {
+    const TemporaryFolder folder;
+    const fs::path made = folder.path() / "made" / "here";
+    ASSERT_EQ(generate("--all --out=" + made.string()).exit_code, 0);
+    for (const std::string& name : scene_names()) {
+        EXPECT_TRUE(read(made / (name + ".x3d")) == test_file(name)) << name;
+    }
+    const auto files = fs::directory_iterator(made);
+    EXPECT_EQ(std::distance(begin(files), end(files)), 14);
+}
+
+TEST(Generator, NeedsNoFileAndNoParticularFolder) {
+    const TemporaryFolder folder;
+    const fs::path file = folder.path() / "pot.x3d";
+    const std::string command =
+        "cd / && " + std::string(NUVO_GENERATOR) + " teapot --out=" + file.string();
+    EXPECT_EQ(std::system(command.c_str()), 0);
+    EXPECT_TRUE(read(file) == test_file("teapot"));
+}
+
+TEST(Generator, WritesAppendixFAsPrintedBrokenAttributeIncluded) {
+    std::string expected;
+    std::istringstream lines{std::string(kPrintedAppendixF)};
+    for (std::string line; std::getline(lines, line);) expected += line.substr(2) + "\n";
+    EXPECT_EQ(generate("appendixF").text, expected);
+}
+
+TEST(Generator, WritesAppendicesEAndGWithThePrintedNumberOfLines) {
+    EXPECT_EQ(occurrences(generate("appendixE").text, "\n"), 13U);
+    EXPECT_EQ(occurrences(generate("appendixG").text, "\n"), 38U);
+}
+
+TEST(Generator, LeavesTheSpotLightOfFigure25ToItsDefaults) {
+    const std::string text = generate("figure25").text;
+    EXPECT_EQ(occurrences(text, "cutOffAngle"), 0U);
+    EXPECT_EQ(occurrences(text, "beamWidth"), 0U);
+    EXPECT_EQ(occurrences(text, "<SpotLight direction='0 0 -1' location='0 0 10' color='1 1 1' />"),
+              1U);
+}
+
+TEST(Generator, LightsFigures27To29WithOnePrimaryEach) {
+    const std::map<std::string, std::pair<std::string, std::string>> expected{
+        {"figure27", {" color='1 0 0'", "fieldOfView='0.7'"}},
+        {"figure28", {" color='0 1 0'", "fieldOfView='0.8'"}},
+        {"figure29", {" color='0 0 1'", "fieldOfView='0.9'"}}};
+    for (const auto& [name, attributes] : expected) {
+        const std::string text = generate(name).text;
+        EXPECT_EQ(occurrences(text, attributes.first), 1U) << name;
+        EXPECT_EQ(occurrences(text, attributes.second), 1U) << name;
+        EXPECT_EQ(occurrences(text, "diffuseColor='0.5 0.5 0.5'"), 1U) << name;
+    }
+}
+
+TEST(Generator, WritesThePublishedNumberOfShapes) {
+    const std::map<std::string, std::size_t> octahedra{
+        {"test1", 728}, {"test2", 1000}, {"test4", 3200}};
+    for (const auto& [name, count] : octahedra) {
+        const std::string text = test_file(name);
+        EXPECT_EQ(occurrences(text, "<Shape>"), count) << name;
+        EXPECT_EQ(occurrences(text, "<IndexedTriangleSet "), count) << name;
+        EXPECT_EQ(occurrences(text, "USE='Octahedron'"), count - 1) << name;
+        const auto index = number_lists(text, " index='");
+        ASSERT_EQ(index.size(), 1U) << name;
+        EXPECT_EQ(index[0].size(), 8U * 3U) << name;
+    }
+    EXPECT_EQ(occurrences(test_file("test3"), "<Shape>"), 5985U);
+    EXPECT_EQ(occurrences(test_file("test3"), "<Sphere radius='3'/>"), 5985U);
+    EXPECT_EQ(occurrences(test_file("icosphere"), "<Shape>"), 4U);
+}
+
+TEST(Generator, WritesTheTeapotAsOneMeshWithoutDegenerateTriangles) {
+    const std::string text = test_file("teapot");
+    EXPECT_EQ(occurrences(text, "<Shape>"), 1U);
+    const auto index = number_lists(text, " index='");
+    const auto points = number_lists(text, " point='");
+    ASSERT_EQ(index.size(), 1U);
+    ASSERT_EQ(points.size(), 1U);
+    ASSERT_EQ(index[0].size(), 25440U * 3U);
+    // Six times the signed volume under the triangles: positive when they face outwards.
+    double volume = 0;
+    std::set<std::array<double, 3>> distinct;
+    for (std::size_t i = 0; i < index[0].size(); i += 3) {
+        std::array<std::array<double, 3>, 3> p;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto at = static_cast<std::size_t>(index[0][i + k]);
+            ASSERT_LT(at * 3, points[0].size());
+            p[k] = {points[0][3 * at], points[0][3 * at + 1], points[0][3 * at + 2]};
+            distinct.insert(p[k]);
+        }
+        EXPECT_TRUE(p[0] != p[1] && p[1] != p[2] && p[2] != p[0]) << "triangle " << i / 3;
+        volume += p[0][0] * (p[1][1] * p[2][2] - p[1][2] * p[2][1]) +
+                  p[0][1] * (p[1][2] * p[2][0] - p[1][0] * p[2][2]) +
+                  p[0][2] * (p[1][0] * p[2][1] - p[1][1] * p[2][0]);
+    }
+    EXPECT_GT(volume, 0);
+    EXPECT_EQ(distinct.size() * 3, points[0].size()) << "equal points are to be one corner";
+}
+
+TEST(Generator, PutsTheSpheresOfTest3OnFiveShellsInEqualParts) {
+    std::map<int, int> shells;
+    for (const auto& center : number_lists(test_file("test3"), "translation='")) {
+        ASSERT_EQ(center.size(), 3U);
+        const double distance = std::hypot(center[0], center[1], center[2]);
+        const int shell = static_cast<int>(std::lround(distance / 100));
+        // Each coordinate is rounded to 1/64.
+        EXPECT_NEAR(distance, 100 * shell, 3 * 0.5 / 64);
+        ++shells[shell];
+    }
+    EXPECT_EQ(shells, (std::map<int, int>{{1, 1197}, {2, 1197}, {3, 1197}, {4, 1197}, {5, 1197}}));
+}
+
+TEST(Generator, PutsFiftyOctahedraIntoEachClumpOfTest4) {
+    std::map<std::array<int, 3>, int> clumps;
+    for (const auto& center : number_lists(test_file("test4"), "translation='")) {
+        std::array<int, 3> clump{};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            clump[axis] = static_cast<int>(std::lround((center[axis] + 450) / 300));
+            EXPECT_LE(std::abs(center[axis] - (300.0 * clump[axis] - 450)), 30);
+        }
+        ++clumps[clump];
+    }
+    EXPECT_EQ(clumps.size(), 64U);
+    for (const auto& [clump, count] : clumps) EXPECT_EQ(count, 50);
+}
+
+TEST(Generator, LeavesTheMiddleOfTest1ToTheLight) {
+    std::set<std::vector<double>> centers;
+    for (const auto& center : number_lists(test_file("test1"), "translation='")) {
+        centers.insert(center);
+    }
+    EXPECT_EQ(centers.size(), 728U);
+    EXPECT_FALSE(centers.contains({0, 0, 0}));
+    EXPECT_TRUE(centers.contains({100, 0, 0}));
+    EXPECT_TRUE(centers.contains({-400, 400, -400}));
+}
+
+TEST(Generator, AnotherSeedChangesScenesOfChanceAndNoOthers) {
+    for (const std::string name : {"test2", "test3", "test4"}) {
+        EXPECT_TRUE(generate(name + " --seed=2").text == test_file(name)) << name;
+        const std::string other = generate(name + " --seed=1").text;
+        EXPECT_FALSE(other == test_file(name)) << name;
+        EXPECT_EQ(occurrences(other, "<Shape>"), occurrences(test_file(name), "<Shape>"));
+        EXPECT_TRUE(generate(name + " --seed=1").text == other) << name;
+    }
+    for (const std::string name : {"appendixE", "test1", "teapot"}) {
+        EXPECT_TRUE(generate(name + " --seed=1").text == test_file(name)) << name;
+    }
+    EXPECT_EQ(generate("test2 --seed=18446744073709551615").exit_code, 0);
+}
+
+TEST(Generator, RefusesMisuseWithTwoAndOneLineThatSaysWhy) {
+    const TemporaryFolder folder;
+    const std::string out = " --out=" + (folder.path() / "never").string();
+    const std::map<std::string, std::string> wrong{
+        {"", "the name of one scene"},
+        {"nosuch" + out, "no scene is called nosuch"},
+        {"Test1" + out, "no scene is called Test1"},
+        {"test1 test2" + out, "two scenes: test1 and test2"},
+        {"--all", "--all needs --out"},
+        {"--all test1" + out, "the name of one scene"},
+        {"--list" + out, "--list takes no --out"},
+        {"test1 --out=", "--out= needs a name"},
+        {"test2 --seed=" + out, "--seed=: not a whole number"},
+        {"test2 --seed=-1" + out, "--seed=-1: not a whole number"},
+        {"test2 --seed=1.5" + out, "--seed=1.5: not a whole number"},
+        {"test2 --seed=18446744073709551616" + out, "not a whole number"},
+        {"test2 --sed=1" + out, "unknown option --sed=1"}};
+    for (const auto& [arguments, message] : wrong) {
+        const Outcome outcome = generate(arguments + " 2>&1 >/dev/null");
+        EXPECT_EQ(outcome.exit_code, 2) << arguments;
+        const std::string first_line = outcome.text.substr(0, outcome.text.find('\n'));
+        EXPECT_EQ(occurrences(first_line, message), 1U) << arguments << ": " << first_line;
+    }
+    EXPECT_TRUE(fs::is_empty(folder.path()));
+}
+
+TEST(Generator, SaysWhichFileItCannotWrite) {
+    const TemporaryFolder folder;
+    const std::string missing = (folder.path() / "no" / "such.x3d").string();
+    const Outcome no_folder = generate("test1 --out=" + missing + " 2>&1");
+    EXPECT_EQ(no_folder.exit_code, 4);
+    EXPECT_EQ(occurrences(no_folder.text, missing), 1U) << no_folder.text;
+    if (fs::exists("/dev/full")) {
+        EXPECT_EQ(generate("test1 --out=/dev/full 2>/dev/null").exit_code, 4);
+        EXPECT_EQ(generate("test1 2>/dev/null >/dev/full").exit_code, 4);
+        EXPECT_EQ(generate("--all --out=/dev/full 2>/dev/null").exit_code, 4);
+    }
+}
+
+TEST(Generator, ExplainsItselfOnRequest) {
+    const Outcome outcome = generate("-h");
+    EXPECT_EQ(outcome.exit_code, 0);
+    for (const char* option : {"--list", "--all", "--seed=N", "--out="}) {
+        EXPECT_GE(occurrences(outcome.text, option), 1U) << option;
+    }
+}
+
+}  // namespace
