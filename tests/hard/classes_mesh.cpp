@@ -15,6 +15,31 @@ Ray axis_parallel(const Scene&, Aims& aims, Random& random) {
 
 Ray in_split_planes(const Scene&, Aims& aims, Random&) { return aims.in_split_plane(); }
 
+// Almost parallel: components of 1e-8 to 1e-320 where others are 1.
+Ray almost_parallel(const Scene&, Aims& aims, Random& random) {
+    Ray ray = aims.parallel_to_axis(random.below(4) == 0 ? aims.outside() : aims.feature());
+    for (int axis = 0; axis < 3; ++axis) {
+        const double least = random.coordinates() == Coordinates::kDouble ? -320 : -37;
+        if (ray.direction[axis] == 0 && random.below(3) != 0)
+            ray.direction[axis] = random.keep(random.sign() * random.power_of_ten(least, -8));
+    }
+    return ray;
+}
+
+// A scene without thickness: everything lies in one plane of coordinates.
+Scene flat(Random& random) {
+    Scene scene;
+    const int axis = random.below(3);
+    const double height = random.chance() ? 0 : random.coordinate(8);
+    const auto corner = [&] {
+        Point3 p = random.point(8);
+        p[axis] = height;
+        return p;
+    };
+    for (int i = 0; i < 40; ++i) add(scene, single(corner(), corner(), corner()));
+    return scene;
+}
+
 // Plates and boxes on even coordinates around 0, where the spatial midpoints fall.
 Scene plates(Random& random) {
     Scene scene;
@@ -204,6 +229,8 @@ Ray in_one_plane(const Scene&, Aims& aims, Random& random) {
 std::span<const HardClass> mesh_classes() {
     static constexpr HardClass kClasses[] = {
         {"axis-parallel", lattice_or_mix, axis_parallel, true},
+        {"almost-axis-parallel", lattice_or_mix, almost_parallel, true},
+        {"flat-scene", flat, at_plates, false},
         {"split-planes", some_mix, in_split_planes, true},
         {"triangles-in-split-planes", plates, at_plates, false},
         {"closed-mesh-outside", one_closed_mesh, from_outside, false},

@@ -84,9 +84,18 @@ Ray starting_inside(const Scene&, Aims& aims, Random& random) {
     return aims.from_to(from, random.chance() ? aims.feature(object) : aims.feature());
 }
 
+// t is large or small: directions of any length.
+Ray any_length(const Scene& scene, Aims& aims, Random& random) {
+    Ray ray = everywhere(scene, aims, random);
+    const int most = random.coordinates() == Coordinates::kDouble ? 300 : 60;
+    const double factor = std::exp2(random.below(2 * most + 1) - most);
+    ray.direction = random.keep(ray.direction * factor);
+    return ray;
+}
+
 // From 1 to 1e12 scene widths away.
 Ray from_afar(const Scene& scene, Aims& aims, Random& random) {
-    const Point3 from = aims.outside(std::pow(10, random.below(13)));
+    const Point3 from = aims.outside(std::pow(10, random.below(26)));
     if (random.below(4) == 0) {
         const Object& object = scene.objects[0];
         if (!std::holds_alternative<TriangleMesh>(object.shape))
@@ -104,6 +113,7 @@ std::span<const HardClass> place_classes() {
         {"origins-on-surfaces", to_start_from, starting_on_a_surface, true},
         {"origins-inside", to_start_from, starting_inside, true},
         {"distant-origins", mix, from_afar, true},
+        {"directions-of-any-length", mix, any_length, true},
         {"everything", mix, everywhere, true},
     };
     return kClasses;

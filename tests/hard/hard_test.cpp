@@ -2,6 +2,7 @@
 
 #include <sstream>
 
+#include "classes.h"
 #include "leaks.h"
 #include "run.h"
 
@@ -15,13 +16,30 @@ TEST(HardCases, EveryRayOfEveryClassIsWhatExactArithmeticSays) {
     options.rays_per_scene = 100;
     std::ostringstream report;
     const std::vector<ClassTally> tallies = run(options, report);
-    EXPECT_EQ(tallies.size(), 23U);
+    EXPECT_EQ(tallies.size(), hard_classes().size());
     EXPECT_TRUE(print(report, tallies)) << report.str();
     for (const ClassTally& tally : tallies) {
         // Both outcomes occur, or the class is not hard.
         EXPECT_GT(tally.float_exact.hits, tally.float_exact.rays / 5) << tally.name;
         EXPECT_GT(tally.full_double.hits, tally.full_double.rays / 5) << tally.name;
     }
+}
+
+TEST(HardCases, TheOracleSeesTheErrorsOfPlainTests) {
+    RunOptions options;
+    options.rays = 10'000;
+    options.seed = 5;
+    options.rays_per_scene = 100;
+    options.precision = Precision::kDouble;
+    std::ostringstream report;
+    Tally sum;
+    for (const ClassTally& tally : run(options, report))
+        (sum += tally.float_exact) += tally.full_double;
+    EXPECT_GT(sum.missed, 0U);
+    EXPECT_GT(sum.false_hits, 0U);
+    EXPECT_GT(sum.wrong_primitive, 0U);
+    EXPECT_GT(sum.tie_breaks, 0U);
+    EXPECT_GT(sum.worst_t, 1e-10);
 }
 
 TEST(HardCases, NoRayLeaksOutOfAClosedMesh) {

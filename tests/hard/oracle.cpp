@@ -79,14 +79,36 @@ std::optional<OracleRoot> meet(const Vec3<Integer>& f, const Vec3<Integer>& g, c
     if (b >= 0 && c >= 0) return std::nullopt;  // no root is positive
     const Integer discriminant = b * b - a * c;
     if (discriminant < 0) return std::nullopt;
-    const Real surd = sqrt(Real(discriminant));
     OracleRoot found;
-    if (c > 0)  // the smaller root, b < 0
-        found.root = Real(c) / (surd - Real(b));
-    else  // the larger root
-        found.root = b <= 0 ? (surd - Real(b)) / Real(a) : Real(-c) / (surd + Real(b));
     found.near_tangency = discriminant * 500'000 <= a * r * r;  // R^2 - l^2 <= 2e-6 R^2
+    found.a = a;
+    found.b = b;
+    found.c = c;
     return found;
+}
+
+// Enough to tell apart whatever is not equal in doubles of any exponent.
+using ManyDigits = mp::number<mp::cpp_bin_float<4000>, mp::et_off>;
+
+template <typename T>
+T digits_of(const OracleRoot& root) {
+    if (root.rational) return T(root.numerator) / T(root.denominator);
+    const T b(root.b);
+    const T surd = sqrt(T(root.b * root.b - root.a * root.c));
+    if (root.c > 0) return T(root.c) / (surd - b);  // the smaller root, b < 0
+    return root.b <= 0 ? T((surd - b) / T(root.a)) : T(T(-root.c) / (surd + b));
+}
+
+// Whether a root of one is one of the other: the polynomial at n / m is 0, or the resultant.
+bool share_a_root(const OracleRoot& p, const OracleRoot& q) {
+    if (p.rational) {
+        const Integer& n = p.numerator;
+        const Integer& m = p.denominator;
+        return n * (q.a * n + 2 * q.b * m) + q.c * m * m == 0;
+    }
+    if (q.rational) return share_a_root(q, p);
+    const Integer outer = p.a * q.c - q.a * p.c;
+    return outer * outer == 4 * (p.a * q.b - q.a * p.b) * (p.b * q.c - q.b * p.c);
 }
 
 std::optional<OracleRoot> meet(const OracleRay& ray, const Sphere& sphere) {
@@ -122,8 +144,14 @@ int compare(const OracleRoot& a, const OracleRoot& b) {
     }
     const Real difference = a.value() - b.value();
     static const Real kSame("1e-80");
-    if (abs(difference) <= kSame * b.value()) return 0;
-    return difference < 0 ? -1 : 1;
+    if (abs(difference) > kSame * b.value()) return difference < 0 ? -1 : 1;
+    if (share_a_root(a, b)) return 0;
+    return digits_of<ManyDigits>(a) < digits_of<ManyDigits>(b) ? -1 : 1;
+}
+
+const Real& OracleRoot::value() const {
+    if (!value_) value_ = digits_of<Real>(*this);
+    return *value_;
 }
 
 OracleRay::OracleRay(const Ray& ray_in, int scene_grid)

@@ -21,19 +21,24 @@ using Integer = mp::number<
     mp::et_off>;
 using Real = mp::number<mp::cpp_bin_float<100>, mp::et_off>;
 
-/// Where a ray meets a primitive first, at t > 0. On the ray's grid: t = 2^shift times this.
+/// Where a ray meets a primitive first, at t > 0. On the ray's grid: t is a power of two times
+/// this.
 struct OracleRoot {
     bool rational = false;
     Integer numerator;  ///< rational: t = numerator / denominator, denominator > 0
     Integer denominator = 1;
-    Real root;  ///< otherwise
+    Integer a, b, c;  ///< otherwise a root of a t^2 + 2 b t + c, the larger one if c <= 0
     /// The line passes within 1e-6 R of the sphere's silhouette (in the ellipsoid's own space).
     bool near_tangency = false;
 
-    Real value() const { return rational ? Real(numerator) / Real(denominator) : root; }
+    /// Its first 100 digits.
+    const Real& value() const;
+
+  private:
+    mutable std::optional<Real> value_;  ///< once it was asked for
 };
 
-/// The sign of a - b: exact for two rationals; else 80 equal digits count as equal.
+/// The exact sign of a - b.
 int compare(const OracleRoot& a, const OracleRoot& b);
 
 /// What one ray hits: all of Scene::objects[object]'s triangle, and t.
