@@ -19,6 +19,8 @@ constexpr const char* kUsage =
     "  --class=NAME   one class only\n"
     "  --leaks=N      instead: rays from inside closed meshes at their corners and edges\n"
     "  --pictures     instead: pictures of testfiles/hard against the reference, 160 x 90\n"
+    "  --scenes=N     instead: N scenes of the classes, lit from hard places, against the "
+    "reference\n"
     "  --precision=P  exact, double or float tests, to see the oracle find their errors (exact)\n"
     "  --write-scenes instead: write testfiles/hard anew\n"
     "  --threads=N    batches at once (as many as the machine has)\n"
@@ -27,6 +29,7 @@ constexpr const char* kUsage =
 struct Flags {
     nuvo::hard::RunOptions run;
     std::uint64_t leaks = 0;
+    std::uint64_t scenes = 0;
     bool list = false;
     bool pictures = false;
     bool write_scenes = false;
@@ -66,6 +69,8 @@ bool read_flag(const std::string& flag, Flags& flags) {
         flags.run.seed = number;
     else if (name == "--leaks")
         flags.leaks = number;
+    else if (name == "--scenes")
+        flags.scenes = number;
     else if (name == "--threads")
         flags.run.threads = static_cast<unsigned>(number);
     else
@@ -114,6 +119,10 @@ int main(int argc, char** argv) {
         return 0;
     }
     if (flags.pictures) return check_pictures({160, 90}, flags.run.threads, std::cout) ? 0 : 1;
+    if (flags.scenes > 0)
+        return check_random_pictures(flags.scenes, flags.run.seed, flags.run.threads, std::cout)
+                   ? 0
+                   : 1;
     if (flags.leaks > 0) return count_and_print_leaks(flags);
     const std::vector<ClassTally> tallies = run(flags.run, std::cerr);
     if (tallies.empty()) {

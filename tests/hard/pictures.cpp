@@ -40,7 +40,8 @@ Image picture(const Scene& scene, Resolution resolution) {
     return render(scene, primitives, build_tree(scene, primitives, profile), profile, resolution);
 }
 
-PictureCheck check_picture(const Scene& scene, const Image& image, std::ostream& faults) {
+PictureCheck check_picture(const Scene& scene, const Image& image, std::ostream& faults,
+                           bool rounded_points) {
     const Reference reference(scene, {image.width(), image.height()});
     PictureCheck check;
     for (int y = 0; y < image.height(); ++y) {
@@ -51,6 +52,10 @@ PictureCheck check_picture(const Scene& scene, const Image& image, std::ostream&
             ++check.off;
             if (!reference.stable(x, y)) {
                 ++check.masked;
+                continue;
+            }
+            if (rounded_points && !reference.stable_when_rounded(x, y)) {
+                ++check.rounded;
                 continue;
             }
             faults << "pixel " << x << "," << y << ": " << text(image.at(x, y)) << " instead of "

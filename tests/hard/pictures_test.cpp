@@ -22,6 +22,11 @@ TEST(HardPictures, EqualTheReferenceOutsideTheSilhouetteMask) {
     EXPECT_TRUE(check_pictures(kSize, 0, report)) << report.str();
 }
 
+TEST(HardPictures, ScenesOfEveryClassLitFromSurfacesEqualTheReference) {
+    std::ostringstream report;
+    EXPECT_TRUE(check_random_pictures(104, 13, 0, report)) << report.str();
+}
+
 TEST(HardPictures, TheReferenceSeesTheErrorsOfTheThesisProfile) {
     const Scene scene = hard_scene("contact-gaps");
     const Profile profile = thesis_profile();

@@ -61,6 +61,10 @@ Reference::Reference(const Scene& scene, Resolution resolution)
     const int smaller = std::min(resolution.width, resolution.height);
     half_width_ = half * resolution.width / smaller;
     half_height_ = half * resolution.height / smaller;
+    for (const Object& object : scene.objects) {
+        const Bounds3 box = bounds(object.shape);
+        largest_ = std::max({largest_, max_norm(box.min), max_norm(box.max)});
+    }
 }
 
 Reference::Line Reference::line(double x, double y) const {
@@ -204,9 +208,36 @@ bool Reference::stable(int x, int y) const {
     return true;
 }
 
-Reference::Sample Reference::sample(double x, double y) const {
+// A light lies in the plane of the lit surface at that point, up to rounding.
+bool Reference::lit_along_the_surface(int x, int y) const {
+    const std::optional<Meeting> meeting = nearest(line(x + 0.5, y + 0.5));
+    if (!meeting) return false;
+    const auto& n = meeting->geometric;
+    return std::any_of(scene_.lights.begin(), scene_.lights.end(), [&](const Light& light) {
+        const bool endless = light.kind == Light::Kind::kDirectional;
+        const Long way =
+            endless ? Long(light.direction) : Long(light.location) - rounded(meeting->point);
+        return std::fabs(dot(n, way)) <= 0x1p-41L * (endless ? 1 : largest_);
+    });
+}
+
+bool Reference::stable_when_rounded(int x, int y) const {
+    if (lit_along_the_surface(x, y)) return false;
+    // From less than a rounding of a coordinate to the worst that a lit point may have.
+    constexpr double kErrors[] = {0x1p-55, 0x1p-53, 0x1p-50, 0x1p-46, 0x1p-41};
+    const Sample exact = pixel(x, y);
+    for (const double e : kErrors)
+        for (int i = 0; i < 8; ++i) {
+            const Vector3 error{i & 1 ? e : -e, i & 2 ? e : -e, i & 4 ? e : -e};
+            if (!sample(x + 0.5, y + 0.5, error).sees_the_same(exact)) return false;
+        }
+    return true;
+}
+
+Reference::Sample Reference::sample(double x, double y, const Vector3& error) const {
     const Line ray = line(x, y);
-    const std::optional<Meeting> meeting = nearest(ray);
+    std::optional<Meeting> meeting = nearest(ray);
+    if (meeting) meeting->point = meeting->point + DigitsVector(error * largest_);
     Sample sample;
     Long color;
     if (!meeting) {

@@ -36,11 +36,15 @@ class Reference {
         }
     };
     /// At a point of the picture, in pixels from its top left corner.
-    Sample sample(double x, double y) const;
+    Sample sample(double x, double y) const { return sample(x, y, {}); }
     Sample pixel(int x, int y) const { return sample(x + 0.5, y + 0.5); }
     /// False on the silhouette mask: a move by 1e-3 pixel in one of 8 directions changes the
     /// nearest primitive or the lights that reach it.
     bool stable(int x, int y) const;
+    /// False where a lit point that is off by a few roundings of the scene's coordinates in one of
+    /// 8 directions has other lights: there definition 4 depends on how the point is rounded, as
+    /// where the way to the light runs exactly along a surface.
+    bool stable_when_rounded(int x, int y) const;
 
   private:
     struct Line {
@@ -60,6 +64,9 @@ class Reference {
         Digits second;
     };
 
+    /// With the lit point moved by `error`, in units of the largest coordinate of the scene.
+    Sample sample(double x, double y, const Vector3& error) const;
+    bool lit_along_the_surface(int x, int y) const;
     Line line(double x, double y) const;
     std::optional<Meeting> nearest(const Line& line) const;
     /// The plane's t, and weights of the corners b and c.
@@ -76,6 +83,7 @@ class Reference {
     Digits half_width_;
     Digits half_height_;
     Sieve sieve_;
+    double largest_ = 0;  ///< coordinate
 };
 
 }  // namespace nuvo::hard
