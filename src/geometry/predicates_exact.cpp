@@ -108,7 +108,11 @@ bool exact_blocks(const ExactQuadratic& q, double end, bool touches) {
     if (q.empty || q.a.sign() == 0) return false;
     const int b = q.b.sign();
     const bool endless = std::isinf(end);
-    if (touches) return b < 0 && (endless || (Exact(end) * q.a + Exact(2) * q.b).sign() > 0);
+    const auto end_is_outside = [&] {
+        return (Exact(end) * (Exact(end) * q.a + Exact(2) * q.b) + q.c).sign() > 0;
+    };
+    // See rounded_blocks().
+    if (touches) return b < 0 && (endless || end_is_outside());
     if (q.c.sign() > 0) {
         if (b >= 0 || q.discriminant().sign() < 0) return false;
         if (endless) return true;
@@ -116,7 +120,7 @@ bool exact_blocks(const ExactQuadratic& q, double end, bool touches) {
         const Exact slope = Exact(end) * q.a + q.b;
         return slope.sign() > 0 || (Exact(end) * (slope + q.b) + q.c).sign() < 0;
     }
-    return endless || (Exact(end) * (Exact(end) * q.a + Exact(2) * q.b) + q.c).sign() > 0;
+    return endless || end_is_outside();
 }
 
 Vec3<WideDouble> at_root(const ExactQuadratic& q, SphereRoot which, const ExactVector& p,

@@ -55,16 +55,18 @@ Decision rounded_blocks(const RoundedQuadratic& q, double end, double band, bool
     }
     const double ea = endless ? 0 : end * q.a;
     const double slope_error = ea * q.a_relative + q.b_error + gamma(2) * (ea + std::fabs(q.b));
-    if (touches) {  // the other root lies in (0, end): b < 0 and 2 b + end a > 0
-        const Decision leaves = decide(-q.b, q.b_error);
-        if (leaves != Decision::kYes || endless) return leaves;
-        return decide(ea + 2 * q.b, 2 * slope_error);
-    }
     const double value = endless ? 0 : end * (ea + 2 * q.b) + q.c;
     const double value_error =
         endless ? 0
                 : end * (2 * slope_error + gamma(4) * (ea + 2 * std::fabs(q.b))) + q.c_error +
                       gamma(2) * size;
+    if (touches) {
+        // The lit point itself has c = 0, so its other root lies in (0, end) iff b < 0 and the end
+        // lies outside: value > 0, which does not depend on how the point was rounded.
+        const Decision enters = decide(-q.b, q.b_error);
+        if (enters != Decision::kYes || endless) return enters;
+        return decide(value, value_error);
+    }
     if (q.c < 0) return endless ? Decision::kYes : decide(value, value_error);
     if (q.b > q.b_error || q.depth < -q.depth_error) return Decision::kNo;
     if (!(q.b < -q.b_error && q.depth > q.depth_error)) return Decision::kUnsure;

@@ -244,8 +244,8 @@ SurfacePoint surface_point(const ExactRay& ray, const Ellipsoid& ellipsoid, Sphe
 /// The origin stands for a lit point up to `origin_error` per component (>= 0); a surface that may
 /// pass through the lit point (a triangle's plane; a sphere's or ellipsoid's surface;
 /// `origin_on_it` says that it does) touches it. A touching triangle blocks nothing; a touching
-/// sphere blocks iff its other root -2 b / a lies in the interval. Everything else is decided
-/// exactly.
+/// sphere blocks iff the way enters it and ends outside: a light on its surface, too, only touches
+/// it. Everything else is decided exactly.
 inline bool blocks(const ExactRay& shadow, double end, double origin_error,
                    const Triangle& triangle, StageCounts& counts) {
     const detail::LineTest test = detail::line_test(shadow, triangle, counts);

@@ -1,0 +1,100 @@
+#include "pictures.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cstdlib>
+#include <iomanip>
+#include <mutex>
+#include <ostream>
+#include <sstream>
+#include <thread>
+
+#include "nuvo/render/render.h"
+#include "nuvo/scene/x3d.h"
+#include "reference.h"
+#include "scene_files.h"
+
+namespace nuvo::hard {
+namespace {
+
+int distance(const Rgb8& a, const Rgb8& b) {
+    return std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)});
+}
+
+std::string text(const Rgb8& c) {
+    std::ostringstream out;
+    out << +c.r << "," << +c.g << "," << +c.b;
+    return out.str();
+}
+
+}  // namespace
+
+std::string hard_scene_path(const std::string& name) {
+    return std::string(NUVO_SOURCE_DIR) + "/testfiles/hard/" + name + ".x3d";
+}
+
+Image picture(const Scene& scene, Resolution resolution) {
+    Profile profile = exact_profile();
+    profile.type = OctreeType::kNonuniform;
+    const Primitives primitives = flatten(scene, profile.leaves);
+    return render(scene, primitives, build_tree(scene, primitives, profile), profile, resolution);
+}
+
+PictureCheck check_picture(const Scene& scene, const Image& image, std::ostream& faults,
+                           bool rounded_points) {
+    const Reference reference(scene, {image.width(), image.height()});
+    PictureCheck check;
+    for (int y = 0; y < image.height(); ++y) {
+        for (int x = 0; x < image.width(); ++x) {
+            ++check.pixels;
+            const Reference::Sample truth = reference.pixel(x, y);
+            if (distance(truth.color, image.at(x, y)) <= 1) continue;
+            ++check.off;
+            if (!reference.stable(x, y)) {
+                ++check.masked;
+                continue;
+            }
+            if (rounded_points && !reference.stable_when_rounded(x, y)) {
+                ++check.rounded;
+                continue;
+            }
+            faults << "pixel " << x << "," << y << ": " << text(image.at(x, y)) << " instead of "
+                   << text(truth.color) << ", shape " << truth.object << " triangle "
+                   << truth.triangle << " lit " << truth.lit << "\n";
+        }
+    }
+    return check;
+}
+
+bool check_pictures(Resolution resolution, unsigned threads, std::ostream& out) {
+    const std::vector<SceneFile> files = hard_scene_files();
+    std::vector<PictureCheck> checks(files.size());
+    std::vector<std::string> faults(files.size());
+    std::atomic<std::size_t> next{0};
+    const auto work = [&] {
+        for (std::size_t i = next++; i < files.size(); i = next++) {
+            const Scene scene = x3d::read_file(hard_scene_path(files[i].name));
+            std::ostringstream found;
+            checks[i] = check_picture(scene, picture(scene, resolution), found);
+            faults[i] = found.str();
+        }
+    };
+    std::vector<std::thread> pool;
+    const unsigned count =
+        threads > 0 ? threads : std::max(1U, std::thread::hardware_concurrency());
+    for (unsigned i = 1; i < count; ++i) pool.emplace_back(work);
+    work();
+    for (std::thread& thread : pool) thread.join();
+    out << "| testfiles/hard           | pixels | off, on the mask | off elsewhere |\n"
+           "|---|---|---|---|\n";
+    bool right = true;
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        out << faults[i] << "| " << std::left << std::setw(24) << files[i].name << std::right
+            << " | " << std::setw(6) << checks[i].pixels << " | " << std::setw(16)
+            << checks[i].masked << " | " << std::setw(13) << checks[i].wrong() << " |\n";
+        right = right && checks[i].wrong() == 0;
+    }
+    return right;
+}
+
+}  // namespace nuvo::hard

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <iosfwd>
+#include <string>
+
+#include "nuvo/image/image.h"
+#include "nuvo/scene/camera.h"
+#include "nuvo/scene/scene.h"
+
+namespace nuvo::hard {
+
+/// How a picture of the program compares with the reference.
+struct PictureCheck {
+    int pixels = 0;
+    int off = 0;      ///< further off than 1/255 in a channel
+    int masked = 0;   ///< of those, on the silhouette mask
+    int rounded = 0;  ///< of those, where the rounding of the lit point decides by definition
+    int wrong() const { return off - masked - rounded; }
+};
+
+/// The scene through the program with the exact profile.
+Image picture(const Scene& scene, Resolution resolution);
+/// Compares `image` with the reference picture; each wrong pixel is printed. `rounded_points`: tell
+/// apart where the rounding of the lit point decides.
+PictureCheck check_picture(const Scene& scene, const Image& image, std::ostream& faults,
+                           bool rounded_points = false);
+/// All of testfiles/hard at that size, as a table; true when none is wrong.
+bool check_pictures(Resolution resolution, unsigned threads, std::ostream& out);
+/// Scenes of every class, seen and lit from hard places, `count` in all; true when no pixel is
+/// wrong. Prints the sums.
+bool check_random_pictures(std::uint64_t count, std::uint64_t seed, unsigned threads,
+                           std::ostream& out);
+/// testfiles/hard/NAME.x3d
+std::string hard_scene_path(const std::string& name);
+
+}  // namespace nuvo::hard

@@ -1,0 +1,110 @@
+#include <algorithm>
+#include <atomic>
+#include <mutex>
+#include <ostream>
+#include <sstream>
+#include <thread>
+#include <vector>
+
+#include "classes.h"
+#include "nuvo/render/render.h"
+#include "pictures.h"
+
+namespace nuvo::hard {
+namespace {
+
+constexpr Resolution kSize{32, 18};
+
+Camera camera_towards(const Point3& eye, const Point3& target, double field_of_view) {
+    Camera camera;
+    camera.position = eye;
+    camera.forward = normalized(target - eye);
+    if (camera.forward == Vector3{}) camera.forward = {0, 0, -1};
+    const Vector3 side = cross(camera.forward, {0.3, 1, 0.1});
+    camera.right = normalized(side);
+    camera.up = cross(camera.right, camera.forward);
+    camera.field_of_view_rad = field_of_view;
+    return camera;
+}
+
+Light lamp_at(const Point3& location) {
+    Light light;
+    light.kind = Light::Kind::kPoint;
+    light.location = location;
+    light.ambient_intensity = 0.5;
+    light.intensity = 0.5;
+    light.radius = std::numeric_limits<double>::max();
+    return light;
+}
+
+// Lights on corners, edges and surfaces, within objects, far away, and along an axis.
+void light_up(Scene& scene, Aims& aims, Random& random) {
+    scene.lights.push_back(lamp_at(aims.feature()));
+    scene.lights.push_back(lamp_at(aims.on_surface(aims.object())));
+    scene.lights.push_back(lamp_at(random.chance() ? aims.outside() : aims.middle(aims.object())));
+    Light sun;
+    sun.ambient_intensity = 0.5;
+    sun.intensity = 0.5;
+    sun.direction = {};
+    sun.direction[random.below(3)] = random.sign();
+    if (random.chance()) sun.direction = random.unit();
+    scene.lights.push_back(sun);
+    for (Object& object : scene.objects) object.solid = random.chance();
+    scene.materials[0].specular_color = {0.3, 0.3, 0.3};
+    scene.materials[0].ambient_intensity = 1;
+}
+
+PictureCheck check_one(std::uint64_t number, std::uint64_t seed, std::ostream& faults) {
+    const auto classes = hard_classes();
+    const HardClass& hard_class = classes[number % classes.size()];
+    Random random(mixed_seed(seed, 2000, number),
+                  static_cast<Coordinates>(number / classes.size() % 3));
+    Scene scene = hard_class.scene(random);
+    const Primitives primitives = flatten(scene, LeafContent::kPrimitives);
+    const Octree octree = build_tree(scene, primitives, exact_profile());
+    Aims aims(scene, octree, random);
+    light_up(scene, aims, random);
+    const Object& target = aims.object();
+    const double size = aims.half_size(target);
+    const Point3 eye =
+        random.chance() ? aims.middle(target) + random.unit() * (4 * size) : aims.outside();
+    scene.camera = camera_towards(eye, aims.middle(target), 0.7);
+    std::ostringstream found;
+    const PictureCheck check = check_picture(scene, picture(scene, kSize), found, true);
+    if (check.wrong() > 0)
+        faults << hard_class.name << " scene " << number << " seed " << seed << "\n" << found.str();
+    return check;
+}
+
+}  // namespace
+
+bool check_random_pictures(std::uint64_t count, std::uint64_t seed, unsigned threads,
+                           std::ostream& out) {
+    std::atomic<std::uint64_t> next{0};
+    std::mutex mutex;
+    PictureCheck sum;
+    const auto work = [&] {
+        for (std::uint64_t i = next++; i < count; i = next++) {
+            std::ostringstream faults;
+            const PictureCheck check = check_one(i, seed, faults);
+            const std::lock_guard lock(mutex);
+            sum.pixels += check.pixels;
+            sum.off += check.off;
+            sum.masked += check.masked;
+            sum.rounded += check.rounded;
+            out << faults.str();
+        }
+    };
+    std::vector<std::thread> pool;
+    const unsigned n = threads > 0 ? threads : std::max(1U, std::thread::hardware_concurrency());
+    for (unsigned i = 1; i < n; ++i) pool.emplace_back(work);
+    work();
+    for (std::thread& thread : pool) thread.join();
+    out << count << " scenes, " << sum.pixels << " pixels: " << sum.masked
+        << " off on the silhouette mask, " << sum.rounded
+        << " where the rounding of the lit point decides, " << sum.wrong()
+        << " off elsewhere, seed " << seed << "\n";
+    return sum.wrong() == 0;
+}
+
+}  // namespace nuvo::hard
