@@ -187,7 +187,7 @@ class ExactWalk {
 
 /// The published walk: a point is pushed past each face by `step` times the smallest voxel width.
 /// `visit(leaf)` returns true to end the walk. Leaves can be missed, and the walk gives up where
-/// the pushed point does not leave its leaf. [thesis 4.4.4, 5.4.3]
+/// the pushed point makes no headway. [thesis 4.4.4, 5.4.3]
 template <typename T, typename Locator>
 class NudgedWalk {
   public:
@@ -212,15 +212,18 @@ class NudgedWalk {
                 leaf = find(p);
             }
         }
+        // Where the way to the far face does not grow, the ray is in the same leaf again or goes to
+        // and fro between two: the endless loop of thesis 5.4.2, cut short.
+        T reached = -std::numeric_limits<T>::infinity();
         for (;;) {
             const Node& node = octree_.nodes()[leaf];
-            if (visit(node)) return;
+            const T far = crossings(bounds_of(node), ray).far;
+            if (!(far > reached) || visit(node)) return;
+            reached = far;
             on_search();
-            const Vec3<T> p = ray.at(crossings(bounds_of(node), ray).far + push);
+            const Vec3<T> p = ray.at(far + push);
             if (!contains(root, p)) return;
-            const NodeIndex next = find(p);
-            if (next == leaf) return;  // the endless loop of thesis 5.4.2, cut short
-            leaf = next;
+            leaf = find(p);
         }
     }
 
