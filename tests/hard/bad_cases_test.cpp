@@ -1,7 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "nuvo/geometry/predicates.h"
-#include "random.h"
+#include "nuvo/render/render.h"
+#include "parts.h"
 
 // What once was wrong, in numbers.
 namespace nuvo::hard {
@@ -51,6 +52,32 @@ TEST(BadCases, ALightOnTheLitEllipsoidIsNotBlockedByIt) {
         }
     }
     EXPECT_GT(lit_points, 500);
+}
+
+// Beyond some 1e15 scene widths one rounded step ends far from the root, and the path from there
+// strayed from the ray by more than the margin.
+TEST(BadCases, AnOriginThatIsVeryFarAwayMissesNothing) {
+    Scene scene;
+    for (int x = -2; x <= 2; ++x)
+        for (int y = -2; y <= 2; ++y)
+            for (int z = -2; z <= 2; ++z) add(scene, Sphere{{x * 1.0, y * 1.0, z * 1.0}, 0.125});
+    Profile profile = exact_profile();
+    profile.max_objects = 1;
+    const Primitives primitives = flatten(scene, profile.leaves);
+    const Octree octree = build_tree(scene, primitives, profile);
+    std::vector<Ray> rays;
+    for (const Vector3& d :
+         {Vector3{-0x1.8p+107, -0x1p+103, 0x1.5p+107}, Vector3{-0x1p+112, -0x1p+111, 0x1.ap+112},
+          Vector3{0x1.bp+106, -0x1.8p+104, -0x1p+106}, Vector3{0x1p+200, 0x1.1p+200, 0x1.3p+199},
+          Vector3{0x1.3p+100, 0x1.7p+100, 0x1.fp+100}, Vector3{0x1.1p+64, 0x1.9p+65, 0x1.3p+60}})
+        rays.push_back({-d, d});
+    const auto found = closest_hits(scene, primitives, &octree, profile, rays);
+    const auto expected = closest_hits(scene, primitives, nullptr, profile, rays);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        EXPECT_TRUE(expected[i].hit);  // at least the sphere in the middle
+        EXPECT_EQ(found[i].shape, expected[i].shape) << i;
+        EXPECT_EQ(found[i].t, expected[i].t) << i;
+    }
 }
 
 }  // namespace

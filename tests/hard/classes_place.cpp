@@ -93,15 +93,15 @@ Ray any_length(const Scene& scene, Aims& aims, Random& random) {
     return ray;
 }
 
-// From 1 to 1e12 scene widths away.
+// From 1 to 1e33 scene widths away; through the middle, where a direction aims no better.
 Ray from_afar(const Scene& scene, Aims& aims, Random& random) {
-    const Point3 from = aims.outside(std::pow(10, random.below(26)));
+    const Point3 from = aims.outside(std::pow(10, random.below(34)));
     if (random.below(4) == 0) {
         const Object& object = scene.objects[0];
         if (!std::holds_alternative<TriangleMesh>(object.shape))
             return aims.grazing(object, from, random.sign() * random.power_of_ten(-12, -1));
     }
-    return aims.from_to(from, aims.feature());
+    return aims.from_to(from, random.below(3) == 0 ? Point3{} : aims.feature());
 }
 
 }  // namespace

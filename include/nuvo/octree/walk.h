@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "nuvo/math/error_bounds.h"
 #include "nuvo/octree/octree.h"
@@ -27,6 +28,47 @@ struct DescentLocator {
 /// Bound on how far, on any axis, the walk's computed path strays from the ray inside `root`: the
 /// margin by which items must be listed beyond their own extent. Derived in docs/numerics.md.
 double path_error_bound(const Bounds3& root);
+
+namespace detail {
+
+/// Where a ray enters a box: t >= 0 and the axis of the face; -1: it starts within all slabs.
+struct Entry {
+    double t;
+    int axis;
+
+    /// A t surely no later.
+    double before() const { return t * (1 - 8 * kUnitRoundoff); }
+};
+
+/// Conservative: none only when the ray surely passes the box.
+inline std::optional<Entry> slab_entry(const Ray& ray, const Bounds3& box) {
+    Entry entry{0, -1};
+    double exit = std::numeric_limits<double>::infinity();
+    for (int axis = 0; axis < 3; ++axis) {
+        const double o = ray.origin[axis];
+        const double d = ray.direction[axis];
+        if (d == 0) {
+            if (o < box.min[axis] || o > box.max[axis]) return std::nullopt;
+            continue;
+        }
+        const double near = ((d > 0 ? box.min : box.max)[axis] - o) / d;
+        if (near > entry.t) entry = {near, axis};
+        exit = std::min(exit, ((d > 0 ? box.max : box.min)[axis] - o) / d);
+    }
+    if (!(entry.t <= exit + 8 * kUnitRoundoff * (entry.t + std::fabs(exit)))) return std::nullopt;
+    return entry;
+}
+
+/// Further out than the path's error allows an origin of the walk to be.
+inline bool is_far(const Point3& point, const Bounds3& root) {
+    return max_norm(point) > 2 * std::fmax(max_norm(root.min), max_norm(root.max));
+}
+
+/// For an origin so far away that one step to the root ends far from it: the ray's point before the
+/// root, found step by step in exact arithmetic, and its t. False when the ray passes the root.
+bool approach(const Ray& ray, const Bounds3& root, Point3& origin, double& base);
+
+}  // namespace detail
 
 /// Glassner's walk without an epsilon: visits the leaves that the ray meets at 0 < t < t_end, in
 /// order, each once. `visit(leaf, exit)` gets the leaf and a lower bound of the t at which the ray
@@ -75,45 +117,25 @@ class ExactWalk {
         origin_ = ray.origin;
         base_ = 0;
         if (!root.contains(origin_)) {
-            double t = 0;
-            int axis = 0;
-            if (!slab_entry(root, t, axis)) return false;
-            base_ = t * (1 - 8 * kUnitRoundoff);
+            const std::optional<detail::Entry> entry = detail::slab_entry(ray, root);
+            if (!entry) return false;
+            base_ = entry->before();
             origin_ = {std::fma(base_, direction_.x, origin_.x),
                        std::fma(base_, direction_.y, origin_.y),
                        std::fma(base_, direction_.z, origin_.z)};
+            if (detail::is_far(origin_, root) && !detail::approach(ray, root, origin_, base_))
+                return false;
         }
         position_ = origin_;
         if (root.contains(origin_)) return true;
-        double t = 0;
-        int axis = -1;
-        if (!slab_entry(root, t, axis)) return false;
+        const std::optional<detail::Entry> entry = detail::slab_entry({origin_, direction_}, root);
+        if (!entry) return false;
         for (int k = 0; k < 3; ++k)
-            position_[k] = std::clamp(origin_[k] + t * direction_[k], root.min[k], root.max[k]);
+            position_[k] =
+                std::clamp(origin_[k] + entry->t * direction_[k], root.min[k], root.max[k]);
+        const int axis = entry->axis;
         if (axis >= 0) position_[axis] = direction_[axis] > 0 ? root.min[axis] : root.max[axis];
         return true;
-    }
-
-    // Conservative: false only when the ray surely passes the root.
-    bool slab_entry(const Bounds3& root, double& entry, int& entry_axis) const {
-        double exit = kInfinity;
-        entry = 0;
-        entry_axis = -1;
-        for (int axis = 0; axis < 3; ++axis) {
-            const double d = direction_[axis];
-            if (d == 0) {
-                if (origin_[axis] < root.min[axis] || origin_[axis] > root.max[axis]) return false;
-                continue;
-            }
-            const double near = (d > 0 ? root.min : root.max)[axis];
-            const double t_near = (near - origin_[axis]) / d;
-            if (t_near > entry) {
-                entry = t_near;
-                entry_axis = axis;
-            }
-            exit = std::min(exit, (heading_face(root, axis) - origin_[axis]) / d);
-        }
-        return entry <= exit + 8 * kUnitRoundoff * (entry + std::fabs(exit));
     }
 
     // From the path's last node down to the leaf that the ray is in at, or just after, position_:
