@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "nuvo/app/choices.h"
+#include "nuvo/app/describe.h"
 #include "nuvo/app/rays.h"
 #include "nuvo/app/report.h"
 #include "nuvo/image/bmp.h"
@@ -26,7 +27,8 @@ LoadedScene load(const Options& options) {
     LoadedScene loaded;
     loaded.path = find_scene(options.file);
     const StageStopwatch watch;
-    loaded.scene = x3d::read_file(loaded.path, options.headlight);
+    loaded.scene =
+        x3d::read_file(loaded.path, options.headlight, options.limits, options.viewpoint);
     loaded.parse_seconds = watch.seconds();
     for (const std::string& warning : loaded.scene.warnings)
         std::cerr << "nuvo: warning: " << warning << '\n';
@@ -232,6 +234,12 @@ ExitCode rays_command(const Options& options) {
     report.write_seconds = write.seconds();
     write_json(options, report);
     if (options.out) print_report(options, report);  // else the answers have standard output
+    return kDone;
+}
+
+ExitCode describe_command(const Options& options) {
+    const LoadedScene loaded = load(options);
+    std::cout << description(loaded.path.string(), loaded.scene, loaded.parse_seconds);
     return kDone;
 }
 

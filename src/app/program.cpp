@@ -61,6 +61,7 @@ ExitCode obey(const Options& options) {
         std::cout << "nuvo " << NUVO_VERSION << '\n';
         return kDone;
     }
+    if (options.describe) return describe_command(options);
     if (options.compare) return compare_command(options);
     if (options.rays) return rays_command(options);
     return render_command(options);

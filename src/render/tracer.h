@@ -2,6 +2,7 @@
 
 #include "nuvo/render/render.h"
 #include "nuvo/render/shading.h"
+#include "surface.h"
 
 namespace nuvo {
 
@@ -31,10 +32,25 @@ class Tracer {
         if (!hit) return scene_.background.color(ray.direction);
         const std::uint32_t index = kernel_.source(hit->primitive).object;
         const Object& object = scene_.objects[index];
-        const Material& material = scene_.materials[object.material];
+        const Material& own = scene_.materials[object.material];
+        const auto* mesh = std::get_if<TriangleMesh>(&object.shape);
+        const bool colored = mesh != nullptr && !mesh->colors.empty();
+        if (!own.lit && !colored) return own.emissive_color;
+        const auto surface = kernel_.surface(prepared, *hit, object);
+        if (!colored) return lit(index, own, surface, ray);
+        const std::uint32_t triangle = kernel_.source(hit->primitive).triangle;
+        return lit(index, with_color(own, mesh_color(*mesh, triangle, surface.uv)), surface, ray);
+    }
+
+    std::uint64_t primary_rays() const { return primary_rays_; }
+    std::uint64_t shadow_rays() const { return shadow_rays_; }
+
+  private:
+    template <typename Surface>
+    Color lit(std::uint32_t index, const Material& material, const Surface& surface,
+              const Ray& ray) {
         Color sum = material.emissive_color;
         if (!material.lit) return sum;
-        const auto surface = kernel_.surface(prepared, *hit, object);
         for (const Light& light : scene_.lights) {
             if (!light.scope.includes(index)) continue;
             const std::optional<LightSample> sample = sample_light(light, surface.point);
@@ -44,10 +60,6 @@ class Tracer {
         return sum;
     }
 
-    std::uint64_t primary_rays() const { return primary_rays_; }
-    std::uint64_t shadow_rays() const { return shadow_rays_; }
-
-  private:
     template <typename Surface>
     bool blocked(const Surface& surface, const Light& light) {
         ++shadow_rays_;

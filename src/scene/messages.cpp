@@ -15,19 +15,29 @@ std::string excerpt(std::string_view text) {
 
 void Messages::fail(const Element& element, std::string_view attribute,
                     const std::string& reason) const {
-    std::string place = place_of(root_, element);
+    Location location = locate(element);
     if (!attribute.empty()) {
-        place += '@';
-        place += attribute;
+        location.place += '@';
+        location.place += attribute;
     }
-    throw Error(file_ + ": " + place + ": " + reason + " (line " + std::to_string(element.line) +
-                ")");
+    throw Error(documents_[location.document].file + ": " + location.place + ": " + reason +
+                " (line " + std::to_string(element.line) + ")");
 }
 
-void Messages::warn(const std::string& subject, const std::string& what, const Element& element) {
-    const auto [entry, is_new] = index_.try_emplace(subject + '\n' + what, warnings_.size());
+Messages::Location Messages::locate(const Element& element) const {
+    for (std::size_t i = 0; i < documents_.size(); ++i) {
+        std::string place = place_of(*documents_[i].root, element);
+        if (!place.empty()) return {i, std::move(place)};
+    }
+    return {0, std::string(element.name)};
+}
+
+void Messages::warn(std::string_view subject, const std::string& what, const Element& element) {
+    if (muted_) return;
+    const auto [entry, is_new] =
+        index_.try_emplace(std::string(subject) + '\n' + what, warnings_.size());
     if (is_new)
-        warnings_.push_back({subject, what, &element, 1});
+        warnings_.push_back({std::string(subject), what, &element, 1});
     else
         ++warnings_[entry->second].count;
 }
@@ -40,8 +50,11 @@ std::vector<std::string> Messages::warnings() const {
             lines.push_back(std::to_string(warnings_.size() - kMost) + " more kinds of warnings");
             break;
         }
+        const Location location = locate(*warning.first);
+        const std::string where =
+            location.document == 0 ? "" : "in " + documents_[location.document].file + " ";
         lines.push_back(warning.subject + ": " + std::to_string(warning.count) + " " +
-                        warning.what + " (first at " + place_of(root_, *warning.first) + ")");
+                        warning.what + " (first " + where + "at " + location.place + ")");
     }
     return lines;
 }

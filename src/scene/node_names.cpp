@@ -18,6 +18,10 @@ constexpr auto kNodes = std::to_array<std::string_view>({"Anchor",
                                                          "Background",
                                                          "Billboard",
                                                          "Box",
+                                                         "CADAssembly",
+                                                         "CADFace",
+                                                         "CADLayer",
+                                                         "CADPart",
                                                          "Collision",
                                                          "Color",
                                                          "ColorRGBA",
@@ -27,32 +31,47 @@ constexpr auto kNodes = std::to_array<std::string_view>({"Anchor",
                                                          "Cylinder",
                                                          "DirectionalLight",
                                                          "ElevationGrid",
+                                                         "Extrusion",
+                                                         "FillProperties",
+                                                         "Fog",
                                                          "Group",
                                                          "ImageTexture",
                                                          "IndexedFaceSet",
                                                          "IndexedLineSet",
+                                                         "IndexedQuadSet",
                                                          "IndexedTriangleFanSet",
                                                          "IndexedTriangleSet",
                                                          "IndexedTriangleStripSet",
                                                          "Inline",
                                                          "LOD",
+                                                         "LineProperties",
+                                                         "LineSet",
                                                          "Material",
+                                                         "MovieTexture",
+                                                         "MultiTexture",
                                                          "NavigationInfo",
                                                          "Normal",
+                                                         "OrthoViewpoint",
                                                          "PhysicalMaterial",
+                                                         "PixelTexture",
                                                          "PointLight",
                                                          "PointSet",
+                                                         "ProtoInstance",
+                                                         "QuadSet",
                                                          "Scene",
+                                                         "Script",
                                                          "Shape",
                                                          "Sphere",
                                                          "SpotLight",
                                                          "StaticGroup",
                                                          "Switch",
                                                          "Text",
+                                                         "TextureTransform",
                                                          "Transform",
                                                          "TriangleFanSet",
                                                          "TriangleSet",
                                                          "TriangleStripSet",
+                                                         "TwoSidedMaterial",
                                                          "UnlitMaterial",
                                                          "Viewpoint",
                                                          "X3D"});
@@ -71,12 +90,16 @@ bool is_silent(std::string_view name) {
 }
 
 void warn_not_drawn(const Element& element, Messages& messages) {
+    refuse_misspelt(element, messages);
+    messages.warn(excerpt(element.name), "not drawn", element);
+}
+
+void refuse_misspelt(const Element& element, const Messages& messages) {
     const auto* node = std::find_if(kNodes.begin(), kNodes.end(), [&](std::string_view known) {
         return known != element.name && equal_but_for_case(known, element.name);
     });
-    std::string what = "not drawn";
-    if (node != kNodes.end()) what += ", X3D spells it " + std::string(*node);
-    messages.warn(excerpt(element.name), what, element);
+    if (node != kNodes.end())
+        messages.fail(element, "", "no node of X3D, which spells it " + std::string(*node));
 }
 
 }  // namespace nuvo::x3d
