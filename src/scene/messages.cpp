@@ -32,14 +32,23 @@ Messages::Location Messages::locate(const Element& element) const {
     return {0, std::string(element.name)};
 }
 
-void Messages::warn(std::string_view subject, const std::string& what, const Element& element) {
-    if (muted_) return;
-    const auto [entry, is_new] =
-        index_.try_emplace(std::string(subject) + '\n' + what, warnings_.size());
+bool Messages::warn(std::string_view subject, std::string_view what, const Element& element) {
+    if (muted_) return false;
+    if (latest_ < warnings_.size() && warnings_[latest_].subject == subject &&
+        warnings_[latest_].what == what) {
+        ++warnings_[latest_].count;
+        return false;
+    }
+    std::string kind(subject);
+    kind += '\n';
+    kind += what;
+    const auto [entry, is_new] = index_.try_emplace(std::move(kind), warnings_.size());
+    latest_ = entry->second;
     if (is_new)
-        warnings_.push_back({std::string(subject), what, &element, 1});
+        warnings_.push_back({std::string(subject), std::string(what), &element, 1});
     else
-        ++warnings_[entry->second].count;
+        ++warnings_[latest_].count;
+    return is_new;
 }
 
 std::vector<std::string> Messages::warnings() const {

@@ -30,7 +30,8 @@ class Messages {
     /// Notes that something about `element` was not taken as the file says. Warnings of one
     /// `subject` (a node's kind, or Kind@field) and one `what` become one line,
     /// "subject: COUNT what (first at PLACE)"; in an Inlined file "(first in FILE at PLACE)".
-    void warn(std::string_view subject, const std::string& what, const Element& element);
+    /// True when it is the first of its kind.
+    bool warn(std::string_view subject, std::string_view what, const Element& element);
 
     /// While muted, warnings are forgotten: the scene is walked a second time.
     void set_muted(bool muted) { muted_ = muted; }
@@ -58,6 +59,7 @@ class Messages {
     std::vector<Document> documents_;
     std::vector<Warning> warnings_;
     std::unordered_map<std::string, std::size_t> index_;  // of subject and what
+    std::size_t latest_ = 0;  // the kind that was warned of last; it mostly is so again
     bool muted_ = false;
 };
 

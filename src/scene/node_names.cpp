@@ -2,16 +2,30 @@
 
 #include <algorithm>
 #include <array>
+#include <unordered_set>
 
 namespace nuvo::x3d {
 
 namespace {
 
-constexpr auto kSilent = std::to_array<std::string_view>(
-    {"ExternProtoDeclare", "MetadataBoolean", "MetadataDouble", "MetadataFloat", "MetadataInteger",
-     "MetadataSet", "MetadataString", "MultiTextureCoordinate", "ProtoDeclare", "TextureCoordinate",
-     "TextureCoordinate3D", "TextureCoordinate4D", "TextureCoordinateGenerator", "WorldInfo",
-     "component", "head", "meta", "unit"});
+const std::unordered_set<std::string_view> kSilent{"ExternProtoDeclare",
+                                                   "MetadataBoolean",
+                                                   "MetadataDouble",
+                                                   "MetadataFloat",
+                                                   "MetadataInteger",
+                                                   "MetadataSet",
+                                                   "MetadataString",
+                                                   "MultiTextureCoordinate",
+                                                   "ProtoDeclare",
+                                                   "TextureCoordinate",
+                                                   "TextureCoordinate3D",
+                                                   "TextureCoordinate4D",
+                                                   "TextureCoordinateGenerator",
+                                                   "WorldInfo",
+                                                   "component",
+                                                   "head",
+                                                   "meta",
+                                                   "unit"};
 
 constexpr auto kNodes = std::to_array<std::string_view>({"Anchor",
                                                          "Appearance",
@@ -85,13 +99,11 @@ bool equal_but_for_case(std::string_view a, std::string_view b) {
 
 }  // namespace
 
-bool is_silent(std::string_view name) {
-    return std::find(kSilent.begin(), kSilent.end(), name) != kSilent.end();
-}
+bool is_silent(std::string_view name) { return kSilent.contains(name); }
 
 void warn_not_drawn(const Element& element, Messages& messages) {
-    refuse_misspelt(element, messages);
-    messages.warn(excerpt(element.name), "not drawn", element);
+    if (messages.warn(excerpt(element.name), "not drawn", element))
+        refuse_misspelt(element, messages);
 }
 
 void refuse_misspelt(const Element& element, const Messages& messages) {

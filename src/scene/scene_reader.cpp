@@ -169,6 +169,11 @@ void SceneReader::read_shape(const Element& node, Group& group) {
     if (!material || geometry == nullptr) return;
     std::optional<Shape> shape = read_geometry(*geometry, group.placement);
     if (!shape) return;
+    if (repeats_.is_repeat(*shape, scene_.objects)) {
+        messages_.warn(geometry->name, "exactly where an earlier one is, so never seen, left out",
+                       node);
+        return;
+    }
     const bool solid = Fields(*geometry, messages_).boolean("solid", true);
     scene_.objects.push_back({std::move(*shape), *material, shape_index, solid});
 }

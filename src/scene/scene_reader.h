@@ -10,6 +10,7 @@
 #include "meshes.h"
 #include "nuvo/scene/x3d.h"
 #include "placement.h"
+#include "repeats.h"
 #include "version.h"
 
 namespace nuvo::x3d {
@@ -78,6 +79,7 @@ class SceneReader {
     std::size_t inline_depth_ = 0;     // above 0 nothing is bound
     bool looking_for_camera_ = false;  // and for nothing else
     Scene scene_;
+    Repeats repeats_;
     std::vector<const Element*> light_nodes_;  // beside scene_.lights
     // Of several bindable nodes of a kind the first in the document counts, or the Viewpoint that
     // was asked for.

@@ -39,6 +39,23 @@ void append_cap(Polygons& polygons, std::uint32_t ring, bool above) {
     polygons.end_polygon();
 }
 
+/// Cuts the caps by halving, 96 sides to 48 to 24 to 12 to 6 to 3, and the other polygons as fans.
+/// A fan's 94 slivers at one corner would have the octree divide around it without end.
+void cut_caps(Polygons& polygons) {
+    for (std::size_t i = 0; i < polygons.count(); ++i) {
+        const std::uint32_t begin = polygons.ends[i];
+        const std::uint32_t count = polygons.ends[i + 1] - begin;
+        std::uint32_t step = 1;
+        if (count == kSides)
+            for (; 2 * step < kSides / 2; step *= 2)
+                for (std::uint32_t c = 0; c < kSides; c += 2 * step)
+                    polygons.cuts.push_back(
+                        {begin + c, begin + c + step, begin + (c + 2 * step) % kSides});
+        for (std::uint32_t c = step; c + step < count; c += step)
+            polygons.cuts.push_back({begin, begin + c, begin + c + step});
+    }
+}
+
 void take_all(MeshSource& source) {
     const Polygons& polygons = source.polygons;
     source.budget.take(polygons.points.size() + polygons.corners.size() +
@@ -84,6 +101,7 @@ void read_cylinder(MeshSource& source) {
     }
     if (source.fields.boolean("top", true)) append_cap(polygons, high, true);
     if (source.fields.boolean("bottom", true)) append_cap(polygons, low, false);
+    cut_caps(polygons);
     take_all(source);
 }
 
@@ -112,6 +130,7 @@ void read_cone(MeshSource& source) {
         }
     }
     if (source.fields.boolean("bottom", true)) append_cap(polygons, low, false);
+    cut_caps(polygons);
     take_all(source);
 }
 

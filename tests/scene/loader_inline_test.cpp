@@ -49,7 +49,7 @@ TEST_F(LoaderInline, StandsWhereItIsPlaced) {
 }
 
 TEST_F(LoaderInline, TakesTheFirstUrlThatCanBeLoaded) {
-    put("two.x3d", bare(kBall + kBall));
+    put("two.x3d", bare(kBall + "<Shape><Sphere radius='3'/></Shape>"));
     put("one.x3d", bare(kBall));
     const Scene scene = load_main(
         bare("<Inline url='\"missing.x3d\" \"http://example.org/one.x3d\" \"two.x3d#View\", "
