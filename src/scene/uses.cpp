@@ -69,6 +69,7 @@ class Resolver {
         Visit done = path_.back();
         path_.pop_back();
         done.extent.elements += 1;
+        check(done.extent.elements, limits_.elements, "elements", *done.element);
         done.extent.height += 1;
         if (done.element->name == "Shape") done.extent.shapes += 1;
         const std::string* def = done.element->find("DEF");
