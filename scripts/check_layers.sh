@@ -20,6 +20,8 @@ libraries=(
     "nlopt octree"
     "boost/chrono app"
     "boost/program_options app"
+    "zlib scene"
+    "geos_c scene"
 )
 include='^[[:space:]]*#[[:space:]]*include[[:space:]]*'
 faults=0
@@ -66,7 +68,7 @@ done
 known=$(printf '%s\n' "${libraries[@]}" | cut -d' ' -f1 | paste -sd'|')
 while IFS=: read -r file line text; do
     fault "$file:$line: a third-party header that scripts/check_layers.sh does not know: $text"
-done < <(grep -rnE "$include<(boost|nlopt|nlohmann|gtest|gmock|png|hwy|tbb)" include src main.cpp |
+done < <(grep -rnE "$include<(boost|nlopt|nlohmann|zlib|geos|gtest|gmock|png|hwy|tbb)" include src main.cpp |
     grep -vE "<($known)[/.]" || true)
 
 [ $faults -eq 0 ] || exit 1

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "nuvo/app/choices.h"
+#include "nuvo/app/describe.h"
 #include "nuvo/app/rays.h"
 #include "nuvo/app/report.h"
 #include "nuvo/image/bmp.h"
@@ -192,6 +193,12 @@ ExitCode rays_command(const Options& options) {
     report.write_seconds = write.seconds();
     write_json(options, report);
     if (options.out) print_report(options, report);  // else the answers have standard output
+    return kDone;
+}
+
+ExitCode describe_command(const Options& options) {
+    const LoadedScene loaded = load(options);
+    std::cout << description(loaded.path.string(), loaded.scene, loaded.parse_seconds);
     return kDone;
 }
 

@@ -44,13 +44,14 @@ std::string non_empty(const std::string& value, const std::string& what) {
 }
 
 void apply_resolution(Options& options, const std::string& value) {
-    const std::string demand = "must be W,H, each side 1 to " + std::to_string(kMaxSidePixels) +
-                               " pixels (limit " + std::to_string(kMaxSidePixels) + ")";
+    const int most = options.max_side_pixels;
+    const std::string demand = "must be W,H, each side 1 to " + std::to_string(most) +
+                               " pixels (limit " + std::to_string(most) + ", --max-side)";
     const std::size_t comma = value.find(',');
     if (comma == std::string::npos) throw UsageError(demand);
     const std::string_view text = value;
-    options.resolution = {parse_integer(text.substr(0, comma), 1, kMaxSidePixels, demand),
-                          parse_integer(text.substr(comma + 1), 1, kMaxSidePixels, demand)};
+    options.resolution = {parse_integer(text.substr(0, comma), 1, most, demand),
+                          parse_integer(text.substr(comma + 1), 1, most, demand)};
 }
 
 void apply_repetitions(Options& options, const std::string& value) {
@@ -107,6 +108,57 @@ void apply_bias(Options& options, const std::string& value) {
     options.profile.bias.reset();
     if (value != "exact")
         options.profile.bias = parse_number(value, 0, true, "must be exact or a number >= 0");
+}
+
+/// A whole number from 1 to `most`.
+std::size_t parse_limit(const std::string& value, std::size_t most) {
+    return parse_integer(value, std::size_t{1}, most,
+                         "must be a whole number 1 to " + std::to_string(most));
+}
+
+constexpr std::size_t kMostThings = 1'000'000'000;
+constexpr std::size_t kMostBytes = 1'000'000'000'000;
+
+std::vector<Flag> scene_flags() {
+    const x3d::Limits standard;
+    return {
+        {"viewpoint", "--viewpoint", "NAME|N", "",
+         "the camera: a Viewpoint's DEF or description, or its number from 1; else the first",
+         [](Options& o, const std::string& v) { o.viewpoint = non_empty(v, "a name or number"); }},
+        {"describe", "--describe", "", "",
+         "print what was read (shapes, lights, camera, bounds, warnings) and draw nothing",
+         [](Options& o, const std::string&) { o.describe = true; }},
+        {"max-depth", "--max-depth", "N", std::to_string(standard.depth),
+         "refuse scenes of elements nested deeper, in the file or by USE and Inline; up to " +
+             std::to_string(kLargestMaxDepth),
+         [](Options& o, const std::string& v) {
+             o.limits.depth = parse_limit(v, kLargestMaxDepth);
+         }},
+        {"max-elements", "--max-elements", "N", std::to_string(standard.elements),
+         "refuse scenes of more elements, in the file or by USE and Inline",
+         [](Options& o, const std::string& v) { o.limits.elements = parse_limit(v, kMostThings); }},
+        {"max-attributes", "--max-attributes", "N", std::to_string(standard.attributes),
+         "refuse files of more attributes",
+         [](Options& o, const std::string& v) {
+             o.limits.attributes = parse_limit(v, kMostThings);
+         }},
+        {"max-shapes", "--max-shapes", "N", std::to_string(standard.shapes),
+         "refuse scenes of more Shapes, each USE and Inline counted",
+         [](Options& o, const std::string& v) { o.limits.shapes = parse_limit(v, kMostThings); }},
+        {"max-vertices", "--max-vertices", "N", std::to_string(standard.vertices),
+         "refuse scenes whose meshes read more points, indices, normals and colors",
+         [](Options& o, const std::string& v) { o.limits.vertices = parse_limit(v, kMostThings); }},
+        {"max-file-size", "--max-file-size", "BYTES", std::to_string(standard.file_bytes),
+         "refuse scenes of more bytes, unpacked and with all that they Inline",
+         [](Options& o, const std::string& v) {
+             o.limits.file_bytes = parse_limit(v, kMostBytes);
+         }},
+        {"max-side", "--max-side", "N", std::to_string(kMaxSidePixels),
+         "refuse pictures wider or higher than N pixels; up to " + std::to_string(kLargestMaxSide),
+         [](Options& o, const std::string& v) {
+             o.max_side_pixels = static_cast<int>(parse_limit(v, kLargestMaxSide));
+         }},
+    };
 }
 
 std::vector<Flag> thesis_flags() {
@@ -201,7 +253,7 @@ std::vector<Flag> output_flags() {
 
 std::vector<Flag> make_flags() {
     std::vector<Flag> all = thesis_flags();
-    for (const auto& part : {profile_flags(), output_flags()})
+    for (const auto& part : {profile_flags(), output_flags(), scene_flags()})
         all.insert(all.end(), part.begin(), part.end());
     return all;
 }

@@ -99,6 +99,16 @@ std::map<std::string, std::string> read_tokens(const std::vector<std::string>& a
     return given;
 }
 
+void apply(const Flag& flag, const std::map<std::string, std::string>& given, Options& options) {
+    const auto found = given.find(flag.name);
+    if (found == given.end()) return;
+    try {
+        flag.apply(options, found->second);
+    } catch (const UsageError& error) {
+        throw UsageError(first_spelling(flag) + "=" + found->second + ": " + error.what());
+    }
+}
+
 void check_combinations(const Options& options, const std::map<std::string, std::string>& given) {
     const auto is_given = [&given](const char* name) { return given.count(name) != 0; };
     if (options.compare && is_given("type"))
@@ -113,6 +123,10 @@ void check_combinations(const Options& options, const std::map<std::string, std:
                 throw UsageError(
                     std::string("--study chooses the answers and the outputs: leave --") + other +
                     " out");
+    if (options.describe)
+        for (const char* other : {"compare", "rays", "showoctree", "out", "json"})
+            if (is_given(other))
+                throw UsageError(std::string("--describe draws nothing: leave ") + other + " out");
     if (is_given("midpoint") && !options.compare && !options.study &&
         options.profile.type == OctreeType::kUniform)
         throw UsageError("--midpoint=" + given.at("midpoint") +
@@ -131,16 +145,10 @@ Options parse(const std::vector<std::string>& arguments) {
     options.help = given.count("help") != 0;
     options.version = given.count("version") != 0;
     if (options.help || options.version) return options;
-    for (const Flag& flag :
-         flags()) {  // in the table's order, so that a profile precedes its parts
-        const auto found = given.find(flag.name);
-        if (found == given.end()) continue;
-        try {
-            flag.apply(options, found->second);
-        } catch (const UsageError& error) {
-            throw UsageError(first_spelling(flag) + "=" + found->second + ": " + error.what());
-        }
-    }
+    // In the table's order, so that a profile precedes its parts; but first what --res is held to.
+    for (const bool first : {true, false})
+        for (const Flag& flag : flags())
+            if ((flag.name == "max-side") == first) apply(flag, given, options);
     check_combinations(options, given);
     return options;
 }

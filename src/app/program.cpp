@@ -65,6 +65,7 @@ ExitCode obey(const Options& options) {
         std::cout << "nuvo " << NUVO_VERSION << '\n';
         return kDone;
     }
+    if (options.describe) return describe_command(options);
     if (options.compare) return compare_command(options);
     if (options.study) return study_command(options);
     if (options.rays) return rays_command(options);

@@ -24,7 +24,8 @@ LoadedScene load(const Options& options) {
     LoadedScene loaded;
     loaded.path = find_scene(options.file);
     const StageStopwatch watch;
-    loaded.scene = x3d::read_file(loaded.path, options.headlight);
+    loaded.scene =
+        x3d::read_file(loaded.path, options.headlight, options.limits, options.viewpoint);
     loaded.parse_seconds = watch.seconds();
     for (const std::string& warning : loaded.scene.warnings)
         std::cerr << "nuvo: warning: " << warning << '\n';

@@ -27,6 +27,7 @@ class ExactKernel {
         Vector3 normal;  // shading
         double error;    // of the point, on each axis
         PrimitiveId primitive;
+        Vec2<double> uv;  // on a triangle
     };
     struct Shadow {
         ExactRay ray;
@@ -67,7 +68,7 @@ class ExactKernel {
         });
         const Vector3 normal = shading_normal(object, source(hit.primitive).triangle, point.normal,
                                               point.uv, ray.direction());
-        return {point.point, normal, point.error, hit.primitive};
+        return {point.point, normal, point.error, hit.primitive, point.uv};
     }
 
     Shadow shadow(const Surface& surface, const Light& light) const {

@@ -42,6 +42,7 @@ class PlainKernel {
         Point3 point;
         Vector3 normal;  // shading
         PrimitiveId primitive;
+        Vec2<double> uv;  // on a triangle
     };
     struct Shadow {
         RayT<T> ray;
@@ -75,10 +76,11 @@ class PlainKernel {
         const Vec3<T> normal = store_.visit(hit.primitive, [&](const auto& primitive) {
             return geometric_normal(primitive, point);
         });
+        const Vec2<double> uv{hit.uv.x, hit.uv.y};
         return {Point3(point),
-                shading_normal(object, source(hit.primitive).triangle, Vector3(normal),
-                               Vec2<double>{hit.uv.x, hit.uv.y}, Vector3(ray.direction)),
-                hit.primitive};
+                shading_normal(object, source(hit.primitive).triangle, Vector3(normal), uv,
+                               Vector3(ray.direction)),
+                hit.primitive, uv};
     }
 
     Shadow shadow(const Surface& surface, const Light& light) const {

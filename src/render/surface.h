@@ -11,4 +11,11 @@ namespace nuvo {
 Vector3 shading_normal(const Object& object, std::uint32_t triangle, const Vector3& geometric,
                        const Vec2<double>& uv, const Vector3& ray_direction);
 
+/// The color that `triangle` of the mesh has at `uv` in place of its material's, blended between
+/// its corners. The mesh has colors.
+Color mesh_color(const TriangleMesh& mesh, std::uint32_t triangle, const Vec2<double>& uv);
+
+/// `material` with `color` as its diffuse color, or as its emissive one where it is unlit.
+Material with_color(Material material, const Color& color);
+
 }  // namespace nuvo

@@ -2,6 +2,7 @@
 
 #include "nuvo/render/render.h"
 #include "nuvo/render/shading.h"
+#include "surface.h"
 
 namespace nuvo {
 
@@ -40,10 +41,27 @@ class Tracer {
         observer.hit(hit->primitive);
         const std::uint32_t index = kernel_.source(hit->primitive).object;
         const Object& object = scene_.objects[index];
-        const Material& material = scene_.materials[object.material];
+        const Material& own = scene_.materials[object.material];
+        const auto* mesh = std::get_if<TriangleMesh>(&object.shape);
+        const bool colored = mesh != nullptr && !mesh->colors.empty();
+        if (!own.lit && !colored) return own.emissive_color;
+        const auto surface = kernel_.surface(prepared, *hit, object);
+        if (!colored) return lit(index, own, surface, ray, observer);
+        const std::uint32_t triangle = kernel_.source(hit->primitive).triangle;
+        const Color vertex_color = mesh_color(*mesh, triangle, surface.uv);
+        return lit(index, with_color(own, vertex_color), surface, ray, observer);
+    }
+
+    std::uint64_t primary_rays() const { return primary_rays_; }
+    std::uint64_t shadow_rays() const { return shadow_rays_; }
+
+  private:
+    // The light that the material emits and reflects. [eq. 37]
+    template <typename Surface, typename Observer>
+    Color lit(std::uint32_t index, const Material& material, const Surface& surface, const Ray& ray,
+              Observer& observer) {
         Color sum = material.emissive_color;
         if (!material.lit) return sum;
-        const auto surface = kernel_.surface(prepared, *hit, object);
         for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
             const Light& light = scene_.lights[i];
             if (!light.scope.includes(index)) continue;
@@ -55,10 +73,6 @@ class Tracer {
         return sum;
     }
 
-    std::uint64_t primary_rays() const { return primary_rays_; }
-    std::uint64_t shadow_rays() const { return shadow_rays_; }
-
-  private:
     template <typename Surface>
     bool blocked(const Surface& surface, const Light& light) {
         ++shadow_rays_;

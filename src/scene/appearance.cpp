@@ -15,13 +15,37 @@ Material unlit_white() {
     return material;
 }
 
+bool is_material(std::string_view name) {
+    return name == "Material" || name == "UnlitMaterial" || name == "PhysicalMaterial" ||
+           name == "TwoSidedMaterial";
+}
+
+/// X3D 4's material for the back side only.
+bool is_back(const Element& child) {
+    const std::string* field = child.find("containerField");
+    return field != nullptr && *field == "backMaterial";
+}
+
+void read_phong(const Fields& fields, Material& material) {
+    material.diffuse_color = fields.clamped_vector("diffuseColor", material.diffuse_color, kUnit);
+    material.ambient_intensity =
+        fields.clamped_number("ambientIntensity", material.ambient_intensity, kUnit);
+    material.specular_color =
+        fields.clamped_vector("specularColor", material.specular_color, kUnit);
+    material.shininess = fields.clamped_number("shininess", material.shininess, kUnit);
+    material.emissive_color =
+        fields.clamped_vector("emissiveColor", material.emissive_color, kUnit);
+    if (fields.boolean("separateBackColor", false))
+        fields.warn("separateBackColor", "of true: its back is drawn as its front");
+}
+
 }  // namespace
 
 std::optional<std::uint32_t> MaterialTable::look_up(const Element* appearance) {
     const Element* material = nullptr;
     if (appearance != nullptr) {
         for (const Element& child : appearance->children) {
-            if (child.name == "Material" && material == nullptr)
+            if (is_material(child.name) && material == nullptr && !is_back(child))
                 material = &child.node();
             else if (!is_silent(child.name))
                 warn_not_drawn(child, messages_);
@@ -40,14 +64,18 @@ std::uint32_t MaterialTable::add(const Material& material) {
 std::optional<std::uint32_t> MaterialTable::read(const Element& element) {
     const Fields fields(element, messages_);
     Material material;
-    material.diffuse_color = fields.clamped_vector("diffuseColor", material.diffuse_color, kUnit);
-    material.ambient_intensity =
-        fields.clamped_number("ambientIntensity", material.ambient_intensity, kUnit);
-    material.specular_color =
-        fields.clamped_vector("specularColor", material.specular_color, kUnit);
-    material.shininess = fields.clamped_number("shininess", material.shininess, kUnit);
-    material.emissive_color =
-        fields.clamped_vector("emissiveColor", material.emissive_color, kUnit);
+    if (element.name == "UnlitMaterial") {
+        material = unlit_white();
+        material.emissive_color = fields.clamped_vector("emissiveColor", {1, 1, 1}, kUnit);
+    } else if (element.name == "PhysicalMaterial") {
+        messages_.warn(element.name, "drawn as a matt Material of its baseColor", element);
+        material.diffuse_color = fields.clamped_vector("baseColor", {1, 1, 1}, kUnit);
+        material.emissive_color = fields.clamped_vector("emissiveColor", {0, 0, 0}, kUnit);
+    } else {
+        read_phong(fields, material);
+    }
+    for (const Element& child : element.children)
+        if (!is_silent(child.name)) warn_not_drawn(child, messages_);
     const double transparency = fields.clamped_number("transparency", 0, kUnit);
     if (transparency == 1) {
         fields.warn("transparency", "of 1: not drawn");

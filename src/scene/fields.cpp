@@ -80,7 +80,7 @@ std::string shown(double value) {
 }  // namespace
 
 void Fields::warn(std::string_view name, const std::string& what) const {
-    messages_.warn(element_.name + "@" + std::string(name), what, element_);
+    messages_.warn(std::string(element_.name) + "@" + std::string(name), what, element_);
 }
 
 bool Fields::boolean(std::string_view name, bool fallback) const {
@@ -125,6 +125,30 @@ std::vector<std::int32_t> Fields::integers(std::string_view name) const {
     return values;
 }
 
+std::vector<std::string> Fields::strings(std::string_view name) const {
+    std::vector<std::string> values;
+    const std::string* text = element_.find(name);
+    if (text == nullptr) return values;
+    if (text->find('"') == std::string::npos) {
+        std::string_view rest = *text;
+        for (std::string_view word = next_word(rest); !word.empty(); word = next_word(rest))
+            values.emplace_back(word);
+        return values;
+    }
+    bool inside = false;
+    for (std::size_t i = 0; i < text->size(); ++i) {
+        char c = (*text)[i];
+        if (c == '"') {
+            inside = !inside;
+            if (inside) values.emplace_back();
+        } else if (inside) {
+            if (c == '\\' && i + 1 < text->size()) c = (*text)[++i];
+            values.back() += c;
+        }
+    }
+    return values;
+}
+
 std::vector<double> Fields::tuple(std::string_view name, std::size_t count) const {
     if (!has(name)) return {};
     std::vector<double> values = numbers(name);
@@ -150,6 +174,13 @@ Matrix3 Fields::rotation(std::string_view name) const {
     const Vector3 axis{values[0], values[1], values[2]};
     if (axis == Vector3{}) warn(name, "about an axis of length zero taken as no rotation");
     return nuvo::rotation(axis, values[3]);
+}
+
+double Fields::positive_number(std::string_view name, double fallback) const {
+    const double value = number(name, fallback);
+    if (value < 0) fail(name, "is negative");
+    if (value == 0) warn(name, "of zero");
+    return value;
 }
 
 void Fields::warn_clamped(std::string_view name, Range range) const {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -37,14 +38,20 @@ class Fields {
     /// An SFRotation (axis and angle) as a matrix; a zero axis is no rotation, with a warning.
     Matrix3 rotation(std::string_view name) const;
 
+    /// A length: negative is an error, zero a warning.
+    double positive_number(std::string_view name, double fallback) const;
+
     /// Outside its range a value is clamped, with a warning.
     double clamped_number(std::string_view name, double fallback, Range range) const;
     Vector3 clamped_vector(std::string_view name, const Vector3& fallback, Range range) const;
     std::vector<double> clamped_numbers(std::string_view name, Range range) const;
     std::vector<Color> colors(std::string_view name) const;
 
+    std::vector<double> numbers(std::string_view name) const;
     std::vector<Vector3> vectors(std::string_view name) const;
     std::vector<std::int32_t> integers(std::string_view name) const;
+    /// An MFString: its quoted strings, or without quotes its words.
+    std::vector<std::string> strings(std::string_view name) const;
 
     bool has(std::string_view name) const { return element_.find(name) != nullptr; }
     [[noreturn]] void fail(std::string_view name, const std::string& reason) const {
@@ -56,7 +63,6 @@ class Fields {
   private:
     /// The field's numbers, `count` of them; empty when it is not given.
     std::vector<double> tuple(std::string_view name, std::size_t count) const;
-    std::vector<double> numbers(std::string_view name) const;
     void warn_clamped(std::string_view name, Range range) const;
 
     const Element& element_;

@@ -13,18 +13,7 @@ std::vector<Vector3> face_normals(const Polygons& polygons, bool ccw) {
     std::vector<Vector3> normals;
     normals.reserve(polygons.count());
     for (std::size_t i = 0; i < polygons.count(); ++i) {
-        const std::uint32_t begin = polygons.ends[i];
-        const std::uint32_t end = polygons.ends[i + 1];
-        const Point3& first = polygons.points[polygons.corners[begin]];
-        double size = 0;
-        for (std::uint32_t c = begin + 1; c < end; ++c)
-            size = std::fmax(size, max_norm(polygons.points[polygons.corners[c]] - first));
-        Vector3 sum;
-        // Edges are measured in the polygon's size: their products neither overflow nor vanish.
-        for (std::uint32_t c = begin + 1; size > 0 && c + 1 < end; ++c)
-            sum += cross((polygons.points[polygons.corners[c]] - first) / size,
-                         (polygons.points[polygons.corners[c + 1]] - first) / size);
-        const Vector3 normal = normalized(sum);
+        const Vector3 normal = normalized(area_vector(polygons, i));
         normals.push_back(ccw ? normal : -normal);
     }
     return normals;
@@ -66,28 +55,29 @@ Adjacency adjacency(const Polygons& polygons) {
 
 /// One normal per point. Where the faces at a point cancel out, its corners keep their own faces'.
 void smooth_all(Polygons& polygons, const std::vector<Vector3>& faces) {
-    polygons.normals.assign(polygons.points.size(), {});
+    polygons.normals.values.assign(polygons.points.size(), {});
     for_each_incidence(polygons, [&](std::uint32_t point, std::uint32_t polygon) {
-        polygons.normals[point] += faces[polygon];
+        polygons.normals.values[point] += faces[polygon];
     });
-    for (Vector3& normal : polygons.normals) normal = normalized(normal);
-    const std::size_t shared = polygons.normals.size();
+    for (Vector3& normal : polygons.normals.values) normal = normalized(normal);
+    const std::size_t shared = polygons.normals.values.size();
     for (std::size_t i = 0; i < polygons.count(); ++i)
         for (std::uint32_t c = polygons.ends[i]; c < polygons.ends[i + 1]; ++c) {
-            if (polygons.normals[polygons.corners[c]] != Vector3{}) continue;
-            if (polygons.corner_normals.empty()) polygons.corner_normals = polygons.corners;
-            polygons.corner_normals[c] = static_cast<std::uint32_t>(polygons.normals.size());
-            polygons.normals.push_back(faces[i]);
+            if (polygons.normals.values[polygons.corners[c]] != Vector3{}) continue;
+            if (polygons.normals.corners.empty()) polygons.normals.corners = polygons.corners;
+            polygons.normals.corners[c] =
+                static_cast<std::uint32_t>(polygons.normals.values.size());
+            polygons.normals.values.push_back(faces[i]);
         }
-    if (polygons.normals.size() == shared) polygons.corner_normals.clear();
+    if (polygons.normals.values.size() == shared) polygons.normals.corners.clear();
 }
 
 /// One normal per corner.
 void smooth_below(Polygons& polygons, const std::vector<Vector3>& faces, double crease_angle) {
     const Adjacency around = adjacency(polygons);
     const double cosine = std::cos(crease_angle);
-    polygons.normals.reserve(polygons.corners.size());
-    polygons.corner_normals.reserve(polygons.corners.size());
+    polygons.normals.values.reserve(polygons.corners.size());
+    polygons.normals.corners.reserve(polygons.corners.size());
     for (std::uint32_t i = 0; i < polygons.count(); ++i)
         for (std::uint32_t c = polygons.ends[i]; c < polygons.ends[i + 1]; ++c) {
             const std::uint32_t point = polygons.corners[c];
@@ -97,16 +87,16 @@ void smooth_below(Polygons& polygons, const std::vector<Vector3>& faces, double 
                 if (other == i || dot(faces[i], faces[other]) > cosine) sum += faces[other];
             }
             const Vector3 normal = normalized(sum);
-            polygons.corner_normals.push_back(c);
-            polygons.normals.push_back(normal == Vector3{} ? faces[i] : normal);
+            polygons.normals.corners.push_back(c);
+            polygons.normals.values.push_back(normal == Vector3{} ? faces[i] : normal);
         }
 }
 
 }  // namespace
 
 void generate_normals(Polygons& polygons, double crease_angle, bool ccw) {
-    polygons.normals.clear();
-    polygons.corner_normals.clear();
+    polygons.normals.values.clear();
+    polygons.normals.corners.clear();
     if (!(crease_angle > 0)) return;
     const std::vector<Vector3> faces = face_normals(polygons, ccw);
     if (crease_angle >= std::numbers::pi)

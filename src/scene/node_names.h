@@ -10,8 +10,10 @@ namespace nuvo::x3d {
 /// declarations, texture coordinates.
 bool is_silent(std::string_view name);
 
-/// Warns that a node is not drawn; a name that only differs from a node's in case gets the right
-/// spelling.
+/// Warns that a node is not drawn, unless its name is misspelt.
 void warn_not_drawn(const Element& element, Messages& messages);
+
+/// Throws Error with the right spelling where a name differs from a node's in case only.
+void refuse_misspelt(const Element& element, const Messages& messages);
 
 }  // namespace nuvo::x3d

@@ -5,24 +5,26 @@
 #include <vector>
 
 #include "appearance.h"
+#include "documents.h"
 #include "lights.h"
 #include "meshes.h"
 #include "nuvo/scene/x3d.h"
 #include "placement.h"
+#include "repeats.h"
 #include "version.h"
 
 namespace nuvo::x3d {
 
-/// Walks the scene graph of a checked document, whose USEs are resolved, and gathers the Scene.
+/// Walks the scene graph of checked documents, whose USEs are resolved, and gathers the Scene.
 class SceneReader {
   public:
-    SceneReader(Version version, const Limits& limits, Messages& messages)
-        : version_(version),
+    SceneReader(const Documents& documents, const Limits& limits, Messages& messages)
+        : documents_(documents),
           messages_(messages),
           materials_(messages),
           vertices_{limits.vertices} {}
 
-    Scene read(const Element& scene, Headlight headlight);
+    Scene read(const Document& document, Headlight headlight, const std::string& viewpoint);
 
   private:
     /// What the children of a grouping node share.
@@ -31,15 +33,25 @@ class SceneReader {
         std::vector<std::size_t> scoped_lights;  // that light this group only
     };
     using Handler = void (SceneReader::*)(const Element&, Group&);
+    struct Kind {
+        Handler handler;
+        enum class Role { kGroup, kShape, kView, kOther } role;
+    };
 
-    /// The handler of a node's kind; null where it is not drawn.
-    static Handler handler_of(std::string_view name);
+    /// How a node's kind is read; null where it is not drawn.
+    static const Kind* kind_of(std::string_view name);
 
     // The recursion, at most as deep as the document limit allows.
     void read_children(const Element& parent, const Placement& placement);
+    void read_only(const Element* child, const Element& parent, const Placement& placement);
     void read_child(const Element& child, Group& group);
     void read_group(const Element& node, Group& group);
     void read_transform(const Element& node, Group& group);
+    void read_switch(const Element& node, Group& group);
+    void read_level_of_detail(const Element& node, Group& group);
+    void read_inline(const Element& node, Group& group);
+    /// Counts the Shapes of what is not drawn.
+    void count_hidden(const Element& node);
 
     // The leaves.
     void read_shape(const Element& node, Group& group);
@@ -50,19 +62,28 @@ class SceneReader {
     void read_background_node(const Element& node, Group& group);
     void read_navigation_info(const Element& node, Group& group);
 
+    void find_camera_first(const Element& scene);
+    void check_viewpoint() const;
     void add_light(Light::Kind kind, const Element& node, Group& group);
     std::optional<Shape> read_geometry(const Element& node, const Placement& placement);
     std::optional<Shape> read_sphere(const Element& node, const Placement& placement);
     void close_scopes(const Group& group, std::size_t first_object);
     void add_headlight(Headlight headlight);
 
-    Version version_;
+    const Documents& documents_;
     Messages& messages_;
     MaterialTable materials_;
     VertexBudget vertices_;
+    Version version_;                  // of the file that is being read
+    std::string file_;                 // in messages
+    std::size_t inline_depth_ = 0;     // above 0 nothing is bound
+    bool looking_for_camera_ = false;  // and for nothing else
     Scene scene_;
+    Repeats repeats_;
     std::vector<const Element*> light_nodes_;  // beside scene_.lights
-    // Of several bindable nodes of a kind the first in the document counts.
+    // Of several bindable nodes of a kind the first in the document counts, or the Viewpoint that
+    // was asked for.
+    std::string wanted_viewpoint_;
     bool has_viewpoint_ = false;
     bool has_background_ = false;
     std::optional<bool> headlight_;

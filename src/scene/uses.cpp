@@ -8,24 +8,11 @@ namespace nuvo::x3d {
 
 namespace {
 
-/// What an element becomes with every USE in it expanded. With the limits checked at each step the
-/// sums stay far below overflow.
-struct Extent {
-    std::size_t elements = 0;
-    std::size_t shapes = 0;
-    std::size_t height = 0;  // levels, the element's own included
-};
-
 struct Visit {
     Element* element;
     std::size_t next_child = 0;
     Extent extent;
 };
-
-/// Declarations of prototypes have names of their own and are not drawn.
-bool is_declaration(const Element& element) {
-    return element.name == "ProtoDeclare" || element.name == "ExternProtoDeclare";
-}
 
 bool has_definition(const Element& root, const std::string& name) {
     std::vector<const Element*> pending{&root};
@@ -41,10 +28,11 @@ bool has_definition(const Element& root, const std::string& name) {
 
 class Resolver {
   public:
-    Resolver(Element& root, const Limits& limits, const Messages& messages)
-        : root_(root), limits_(limits), messages_(messages) {}
+    Resolver(Element& root, const InlineExtents& inlines, const Limits& limits,
+             const Messages& messages)
+        : root_(root), inlines_(inlines), limits_(limits), messages_(messages) {}
 
-    void run() {
+    Extent run() {
         enter(root_);
         while (!path_.empty()) {
             Visit& top = path_.back();
@@ -55,6 +43,7 @@ class Resolver {
             Element& child = top.element->children[top.next_child++];
             if (!is_declaration(child)) enter(child);
         }
+        return whole_;
     }
 
   private:
@@ -72,12 +61,15 @@ class Resolver {
         const std::string* def = element.find("DEF");
         if (def != nullptr && !def->empty()) latest_[*def] = {&element, std::nullopt};
         path_.push_back({&element, 0, {}});
+        const auto inlined = inlines_.find(&element);
+        if (inlined != inlines_.end()) add(inlined->second, element);
     }
 
     void leave() {
         Visit done = path_.back();
         path_.pop_back();
         done.extent.elements += 1;
+        check(done.extent.elements, limits_.elements, "elements", *done.element);
         done.extent.height += 1;
         if (done.element->name == "Shape") done.extent.shapes += 1;
         const std::string* def = done.element->find("DEF");
@@ -87,7 +79,10 @@ class Resolver {
             if (latest != latest_.end() && latest->second.element == done.element)
                 latest->second.extent = done.extent;
         }
-        if (!path_.empty()) add(done.extent, *done.element);
+        if (path_.empty())
+            whole_ = done.extent;
+        else
+            add(done.extent, *done.element);
     }
 
     void expand(Element& element, const std::string& name) {
@@ -121,23 +116,28 @@ class Resolver {
     void check(std::size_t count, std::size_t limit, const char* what,
                const Element& element) const {
         if (count <= limit) return;
-        const char* cause = element.target != nullptr ? "USE makes" : "this makes";
+        const char* cause = element.target != nullptr     ? "USE makes"
+                            : inlines_.contains(&element) ? "Inline makes"
+                                                          : "this makes";
         messages_.fail(element, "",
                        std::string(cause) + " the scene exceed the limit of " +
                            std::to_string(limit) + " " + what);
     }
 
     Element& root_;
+    const InlineExtents& inlines_;
     const Limits& limits_;
     const Messages& messages_;
     std::vector<Visit> path_;
     std::unordered_map<std::string, Definition> latest_;
+    Extent whole_;
 };
 
 }  // namespace
 
-void resolve_uses(Element& root, const Limits& limits, const Messages& messages) {
-    Resolver(root, limits, messages).run();
+Extent resolve_uses(Element& root, const InlineExtents& inlines, const Limits& limits,
+                    const Messages& messages) {
+    return Resolver(root, inlines, limits, messages).run();
 }
 
 }  // namespace nuvo::x3d

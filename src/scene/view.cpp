@@ -48,6 +48,21 @@ Camera read_viewpoint(const Fields& fields, const Placement& placement) {
     return camera;
 }
 
+std::string viewpoint_name(const Element& node, std::size_t number) {
+    for (const char* field : {"DEF", "description"})
+        if (const std::string* name = node.find(field); name != nullptr && !name->empty())
+            return *name;
+    return std::to_string(number);
+}
+
+bool is_wanted(const Element& node, std::size_t number, const std::string& wanted) {
+    if (wanted.empty() || wanted == std::to_string(number)) return true;
+    for (const char* field : {"DEF", "description"})
+        if (const std::string* name = node.find(field); name != nullptr && *name == wanted)
+            return true;
+    return false;
+}
+
 Background read_background(const Fields& fields) {
     Background background;
     if (fields.has("skyColor")) background.sky_color = fields.colors("skyColor");

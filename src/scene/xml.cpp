@@ -38,8 +38,8 @@ class Pieces : public std::streambuf {
 
 class Reader {
   public:
-    Reader(const std::string& file, const std::vector<std::uint32_t>& lines)
-        : file_(file), lines_(lines) {}
+    Reader(const std::string& file, const std::vector<std::uint32_t>& lines, Names& names)
+        : file_(file), lines_(lines), names_(names) {}
 
     /// Appends what `part` holds to `siblings`, in document order.
     void read(const Outline& part, std::vector<Element>& siblings) {
@@ -47,6 +47,7 @@ class Reader {
         // A large or deep element: its start tag alone, then its content part by part.
         read_tag(part, siblings);
         std::vector<Element>& children = siblings.back().children;
+        children.reserve(part.children);
         for (const Outline& inner : part.parts) read(inner, children);
     }
 
@@ -79,11 +80,11 @@ class Reader {
 
     /// Moves the child elements of `parent` to the end of `siblings`.
     void append(ptree& parent, std::vector<Element>& siblings) {
-        siblings.reserve(siblings.empty() ? parent.size() : 0);
+        if (siblings.capacity() == 0) siblings.reserve(parent.size() - parent.count("<xmlattr>"));
         for (auto& [name, tree] : parent) {
             if (name == "<xmlattr>") continue;
             Element& element = siblings.emplace_back();
-            element.name = name;
+            element.name = names_.keep(name);
             element.line = lines_[next_line_++];
             const auto attributes = tree.find("<xmlattr>");
             if (attributes != tree.not_found()) move_attributes(attributes->second, element);
@@ -91,23 +92,25 @@ class Reader {
         }
     }
 
-    static void move_attributes(ptree& from, Element& element) {
+    void move_attributes(ptree& from, Element& element) {
         element.attributes.reserve(from.size());
         for (auto& [name, value] : from)
-            element.attributes.push_back({name, std::move(value.data())});
+            element.attributes.push_back({names_.keep(name), std::move(value.data())});
     }
 
     const std::string& file_;
     const std::vector<std::uint32_t>& lines_;
+    Names& names_;
     std::size_t next_line_ = 0;
 };
 
 }  // namespace
 
-Element parse_xml(std::string_view text, const std::string& file, const Limits& limits) {
+Element parse_xml(std::string_view text, const std::string& file, const Limits& limits,
+                  Names& names) {
     const GuardedDocument document = guard_xml(text, file, limits);
     std::vector<Element> roots;
-    Reader(file, document.lines).read(document.root, roots);
+    Reader(file, document.lines, names).read(document.root, roots);
     return std::move(roots.front());
 }
 

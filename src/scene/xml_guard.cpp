@@ -33,6 +33,7 @@ struct OpenElement {
     std::uint32_t line;
     std::vector<Outline> parts;
     std::size_t levels = 1;  // its own and those inside it
+    std::size_t children = 0;
 };
 
 class Guard {
@@ -84,8 +85,6 @@ class Guard {
     }
 
     void check_encoding() {
-        if (rest().starts_with("\x1f\x8b"))
-            throw Error(file_ + ": compressed with gzip: unpack it first");
         if (rest().starts_with("\xfe\xff") || rest().starts_with("\xff\xfe"))
             throw Error(file_ + ": UTF-16 text is not read: save it as UTF-8");
         if (rest().starts_with("\xef\xbb\xbf")) position_ += 3;
@@ -168,7 +167,7 @@ class Guard {
             fail(line, "too many elements (limit " + std::to_string(limits_.elements) + ")");
         lines_.push_back(line);
         const bool closed = attributes(element, line);
-        open_.push_back({element, begin, position_, line, {}, 1});
+        open_.push_back({element, begin, position_, line, {}, 1, 0});
         if (closed) close();
     }
 
@@ -183,6 +182,8 @@ class Guard {
             if (text_[position_] == '>' || rest().starts_with("/>")) break;
             if (before == position_)
                 fail("not XML: a blank expected in the tag <" + excerpt(element));
+            if (++attributes_ > limits_.attributes)
+                fail("too many attributes (limit " + std::to_string(limits_.attributes) + ")");
             names_.push_back(name("an attribute's name"));
             attribute_value(names_.back());
         }
@@ -229,12 +230,15 @@ class Guard {
         OpenElement element = std::move(open_.back());
         open_.pop_back();
         std::vector<Outline>& siblings = open_.empty() ? top_ : open_.back().parts;
-        if (!open_.empty()) open_.back().levels = std::max(open_.back().levels, element.levels + 1);
+        if (!open_.empty()) {
+            open_.back().levels = std::max(open_.back().levels, element.levels + 1);
+            ++open_.back().children;
+        }
         const std::string_view whole = text_.substr(element.begin, position_ - element.begin);
         if ((whole.size() > kRunBytes || element.levels > kRunLevels) && !element.parts.empty()) {
             const std::string_view tag =
                 text_.substr(element.begin, element.tag_end - element.begin);
-            siblings.push_back({{}, tag, element.line, std::move(element.parts)});
+            siblings.push_back({{}, tag, element.line, element.children, std::move(element.parts)});
             return;
         }
         if (!siblings.empty() && !siblings.back().run.empty()) {
@@ -246,7 +250,7 @@ class Guard {
                 return;
             }
         }
-        siblings.push_back({whole, {}, element.line, {}});
+        siblings.push_back({whole, {}, element.line, 0, {}});
     }
 
     std::string_view text_;
@@ -257,7 +261,8 @@ class Guard {
     std::vector<OpenElement> open_;
     std::vector<Outline> top_;
     std::vector<std::uint32_t> lines_;
-    std::vector<std::string_view> names_;
+    std::size_t attributes_ = 0;
+    std::vector<std::string_view> names_;  // of one element's attributes
 };
 
 }  // namespace

@@ -15,6 +15,7 @@ struct Outline {
     std::string_view run;        ///< whole elements; empty when this is one large or deep element
     std::string_view tag;        ///< that element's start tag, `<` to `>`
     std::uint32_t line = 1;      ///< where `run` or `tag` begins
+    std::size_t children = 0;    ///< of that element
     std::vector<Outline> parts;  ///< what stands inside that element, in order
 };
 

@@ -21,6 +21,8 @@ class CheckLayers : public ProgramTest {
         plant("src/octree/midpoint_nlopt.cpp", "#include <nlopt.hpp>\n");
         plant("src/app/options.cpp", "#include <boost/program_options.hpp>\n");
         plant("src/app/clocks.cpp", "#include <boost/chrono.hpp>\n");
+        plant("src/scene/gunzip.cpp", "#include <zlib.h>\n");
+        plant("src/scene/triangulation.cpp", "#include <geos_c.h>\n");
     }
     void plant(const std::string& name, const std::string& text) const {
         fs::create_directories((folder_ / name).parent_path());

@@ -88,7 +88,7 @@ TEST(LoaderFields, MessagesAreOneShortLine) {
 TEST(LoaderFields, ValuesOutsideAColorsRangeAreClampedWithOneWarningPerField) {
     const Scene scene = load(bare(
         "<Shape><Appearance><Material diffuseColor='2 -1 0.5' shininess='3' ambientIntensity='-1' "
-        "specularColor='0 0 9' emissiveColor='1 1 1.5'/></Appearance><Sphere/></Shape>"
+        "specularColor='0 0 9' emissiveColor='1 1 1.5'/></Appearance><Sphere radius='2'/></Shape>"
         "<Shape><Appearance><Material shininess='1.5'/></Appearance><Sphere/></Shape>"));
     const Material& material = scene.materials.at(0);
     EXPECT_EQ(material.diffuse_color, (Color{1, 0, 0.5}));

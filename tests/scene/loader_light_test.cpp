@@ -117,8 +117,8 @@ TEST(LoaderLight, DegenerateOnesAreWarnedOf) {
 
 // The objects: 0 before, 1 and 2 in the light's group, 3 after it.
 std::string around(const std::string& light) {
-    return kSphere + "<Group>" + kSphere + light + "<Transform>" + kSphere +
-           "</Transform></Group>" + kSphere;
+    return kSphere + "<Group>" + shape("<Sphere radius='2'/>") + light + "<Transform>" +
+           shape("<Sphere radius='3'/>") + "</Transform></Group>" + shape("<Sphere radius='4'/>");
 }
 
 TEST(LoaderLight, BeforeVersion31EveryLightLightsEverything) {
@@ -148,7 +148,8 @@ TEST(LoaderLight, FromVersion31OnGlobalDecides) {
 TEST(LoaderLight, EachUseOfAGroupLightsItsOwnShapes) {
     const Scene scene =
         load(versioned("3.3", "<Group DEF='g'><DirectionalLight/>" + kSphere + "</Group>" +
-                                  kSphere + "<Transform><Group USE='g'/></Transform>"));
+                                  shape("<Sphere radius='2'/>") +
+                                  "<Transform translation='1 0 0'><Group USE='g'/></Transform>"));
     ASSERT_EQ(scene.lights.size(), 2u);
     EXPECT_EQ(scene.lights[0].scope, (LightScope{0, 1}));
     EXPECT_EQ(scene.lights[1].scope, (LightScope{2, 3}));

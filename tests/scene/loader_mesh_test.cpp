@@ -39,17 +39,6 @@ TEST(LoaderMesh, ZeroAreaTrianglesKeepTheirPlace) {
     EXPECT_FALSE(has_zero_area(mesh.triangle(1)));
 }
 
-TEST(LoaderMesh, ConcavePolygonsAreDrawnAsConvexWithAWarning) {
-    const std::vector<std::string> warned =
-        load(bare(face_set("convex='false' coordIndex='0 1 2 3'"))).warnings;
-    EXPECT_EQ(
-        warned,
-        std::vector<std::string>{
-            "IndexedFaceSet@convex: 1 of false: its polygons are drawn as if they were convex "
-            "(first at Scene/Shape/IndexedFaceSet)"});
-    EXPECT_TRUE(load(bare(face_set("convex='false' coordIndex='0 1 2'"))).warnings.empty());
-}
-
 TEST(LoaderMesh, TriangleSetsTakeThreePointsOrIndicesEach) {
     const std::string five = "<Coordinate point='0 0 0 1 0 0 1 1 0 0 1 0 5 5 5'/>";
     const Scene set = load(bare(shape("<TriangleSet>" + five + "</TriangleSet>")));
@@ -151,7 +140,7 @@ TEST(LoaderMesh, VerticesAreLimitedAtTheLimitUsesCounted) {
     limits.vertices = 11;
     EXPECT_EQ(refusal(bare(nodes), limits),
               "scene.x3d: Scene/Group[1]/Shape/TriangleSet/Coordinate: the scene's meshes exceed "
-              "the limit of 11 points, normals and indices (line 1)");
+              "the limit of 11 points, indices, normals and colors (line 1)");
 }
 
 }  // namespace

@@ -21,7 +21,8 @@ TEST(LoaderShape, MaterialDefaultsAreTheStandards) {
 }
 
 TEST(LoaderShape, WithoutAppearanceOrMaterialIsUnlitWhite) {
-    const Scene scene = load(bare(material_shape("") + material_shape("<Appearance/>")));
+    const Scene scene = load(bare(material_shape("") + "<Transform translation='1 0 0'>" +
+                                  material_shape("<Appearance/>") + "</Transform>"));
     ASSERT_EQ(scene.objects.size(), 2u);
     for (const Object& object : scene.objects) {
         EXPECT_FALSE(scene.materials.at(object.material).lit);
@@ -39,10 +40,11 @@ TEST(LoaderShape, ReadsEveryMaterialField) {
 }
 
 TEST(LoaderShape, TransparencyIsOpaqueUnlessItIsOne) {
-    const Scene scene =
-        load(bare(material_shape("<Appearance><Material transparency='0.5'/></Appearance>") +
-                  material_shape("<Appearance><Material transparency='1'/></Appearance>") +
-                  material_shape("<Appearance><Material transparency='0'/></Appearance>")));
+    const Scene scene = load(bare(
+        material_shape("<Appearance><Material transparency='0.5'/></Appearance>") +
+        material_shape("<Appearance><Material transparency='1'/></Appearance>") +
+        "<Transform translation='1 0 0'>" +
+        material_shape("<Appearance><Material transparency='0'/></Appearance>") + "</Transform>"));
     ASSERT_EQ(scene.objects.size(), 2u);
     EXPECT_EQ(scene.objects[1].shape_index, 2u);
     EXPECT_EQ(scene.shape_count, 3u);
@@ -66,10 +68,11 @@ TEST(LoaderUse, SharesMaterialsAppearancesCoordinatesAndWholeGroups) {
         "<Shape><Appearance DEF='a'><Material DEF='m' diffuseColor='1 0 0'/></Appearance>"
         "<TriangleSet><Coordinate DEF='c' point='0 0 0 1 0 0 0 1 0'/></TriangleSet></Shape>"
         "<Shape DEF='s'><Appearance><Material USE='m'/></Appearance>"
-        "<TriangleSet solid='false'><Coordinate USE='c'/></TriangleSet></Shape>"
+        "<IndexedTriangleSet solid='false' index='1 2 0'><Coordinate USE='c'/></IndexedTriangleSet>"
+        "</Shape>"
         "<Group DEF='g'><Shape><Appearance USE='a'/><Sphere DEF='b' radius='3'/></Shape></Group>"
         "<Transform translation='1 0 0'><Group USE='g'/><Shape USE='s'/></Transform>"
-        "<Shape><Sphere USE='b'/></Shape>"));
+        "<Transform translation='2 0 0'><Shape><Sphere USE='b'/></Shape></Transform>"));
     ASSERT_EQ(scene.objects.size(), 6u);
     EXPECT_EQ(scene.shape_count, 6u);
     EXPECT_EQ(scene.materials.size(), 2u);  // red, and the unlit white of the last
@@ -85,8 +88,10 @@ TEST(LoaderUse, SharesMaterialsAppearancesCoordinatesAndWholeGroups) {
 
 TEST(LoaderUse, MeansTheLatestEarlierDefinition) {
     const Scene scene =
-        load(bare("<Shape><Sphere DEF='x' radius='1'/></Shape><Shape><Sphere USE='x'/></Shape>"
-                  "<Shape><Sphere DEF='x' radius='2'/></Shape><Shape><Sphere USE='x'/></Shape>"));
+        load(bare("<Shape><Sphere DEF='x' radius='1'/></Shape><Transform translation='1 0 0'>"
+                  "<Shape><Sphere USE='x'/></Shape></Transform>"
+                  "<Shape><Sphere DEF='x' radius='2'/></Shape><Transform translation='1 0 0'>"
+                  "<Shape><Sphere USE='x'/></Shape></Transform>"));
     const double expected[] = {1, 1, 2, 2};
     for (int i = 0; i < 4; ++i)
         EXPECT_EQ(std::get<Sphere>(scene.objects.at(i).shape).radius, expected[i]);
@@ -125,9 +130,9 @@ TEST(LoaderUse, ShapesAreLimitedAfterExpansionAtTheLimit) {
     // 2 + 6 + 18 shapes.
     x3d::Limits limits;
     limits.shapes = 27;
-    EXPECT_EQ(load(bare(tripling(2)), x3d::Headlight::kAuto, limits).objects.size(), 26u);
+    EXPECT_EQ(load(bare(tripling(2)), x3d::Headlight::kAuto, limits).shape_count, 26u);
     limits.shapes = 26;
-    EXPECT_EQ(load(bare(tripling(2)), x3d::Headlight::kAuto, limits).objects.size(), 26u);
+    EXPECT_EQ(load(bare(tripling(2)), x3d::Headlight::kAuto, limits).shape_count, 26u);
     limits.shapes = 25;
     EXPECT_EQ(refusal(bare(tripling(2)), limits),
               "scene.x3d: Scene/Group[3]: this makes the scene exceed the limit of 25 shapes "
@@ -220,22 +225,32 @@ TEST(LoaderWarnings, NameEachKindOnceWithItsCountAndFirstPlace) {
         bare("<Group/><Group><Shape><Text/></Shape></Group><Shape><Text/></Shape><TimeSensor/>"
              "<Shape><Appearance><ImageTexture/><Material/></Appearance><Text/></Shape><ROUTE/>" +
              shape("<IndexedFaceSet coordIndex='0 1 2'><Coordinate point='0 0 0 1 0 0 0 1 0'/>"
-                   "<Color color='1 0 0'/></IndexedFaceSet>")));
+                   "<Fog/></IndexedFaceSet>")));
     EXPECT_EQ(
         scene.warnings,
         (Strings{"Text: 3 not drawn (first at Scene/Group[2]/Shape/Text)",
                  "TimeSensor: 1 not drawn (first at Scene/TimeSensor)",
                  "ImageTexture: 1 not drawn (first at Scene/Shape[2]/Appearance/ImageTexture)",
                  "ROUTE: 1 not drawn (first at Scene/ROUTE)",
-                 "Color: 1 not drawn (first at Scene/Shape[3]/IndexedFaceSet/Color)"}));
+                 "Fog: 1 not drawn (first at Scene/Shape[3]/IndexedFaceSet/Fog)"}));
     EXPECT_EQ(scene.shape_count, 4u);
     EXPECT_EQ(scene.objects.at(0).shape_index, 3u);
 }
 
-TEST(LoaderWarnings, OfferTheRightSpelling) {
-    EXPECT_EQ(load(bare("<shape/><Shape><sphere/></Shape>")).warnings,
-              (Strings{"shape: 1 not drawn, X3D spells it Shape (first at Scene/shape)",
-                       "sphere: 1 not drawn, X3D spells it Sphere (first at Scene/Shape/sphere)"}));
+TEST(LoaderWarnings, MisspeltNodesAreRefusedWithTheRightSpelling) {
+    EXPECT_EQ(refusal(bare("<shape/>")),
+              "scene.x3d: Scene/shape: no node of X3D, which spells it Shape (line 1)");
+    EXPECT_EQ(refusal(bare("<Shape><SPHERE/></Shape>")),
+              "scene.x3d: Scene/Shape/SPHERE: no node of X3D, which spells it Sphere (line 1)");
+    EXPECT_EQ(refusal(bare(shape("<IndexedFaceset/>"))),
+              "scene.x3d: Scene/Shape/IndexedFaceset: no node of X3D, which spells it "
+              "IndexedFaceSet (line 1)");
+    EXPECT_EQ(refusal(bare("<Shape><Appearance><material/></Appearance><Sphere/></Shape>")),
+              "scene.x3d: Scene/Shape/Appearance/material: no node of X3D, which spells it "
+              "Material (line 1)");
+    EXPECT_EQ(refusal("<X3D><scene/></X3D>"),
+              "scene.x3d: scene: no node of X3D, which spells it Scene (line 1)");
+    EXPECT_EQ(refusal("<x3d/>"), "scene.x3d: x3d: no node of X3D, which spells it X3D (line 1)");
 }
 
 TEST(LoaderWarnings, AreSilentAboutWhatHasNothingToDraw) {
@@ -270,9 +285,6 @@ TEST(LoaderGroups, GroupingNodesDrawTheirChildren) {
             load(bare("<" + name + "><Shape><Sphere/></Shape></" + name + ">")).objects.size(), 1u)
             << name;
     }
-    EXPECT_EQ(load(bare("<Collision><Shape containerField='proxy'><Sphere/></Shape></Collision>"))
-                  .shape_count,
-              0u);
 }
 
 // Thesis appendix F as printed, with its colour broken over two lines.

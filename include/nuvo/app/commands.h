@@ -26,6 +26,8 @@ ExitCode compare_command(const Options& options);
 ExitCode study_command(const Options& options);
 /// Answers the rays of a file.
 ExitCode rays_command(const Options& options);
+/// Says what was read and draws nothing.
+ExitCode describe_command(const Options& options);
 // All throw UsageError, x3d::Error, RaysError, image::WriteError and std::bad_alloc.
 
 /// The file that `--file` names: as given if there is a file of that name, else with .x3d appended.

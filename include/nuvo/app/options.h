@@ -11,7 +11,9 @@
 
 namespace nuvo::app {
 
-inline constexpr int kMaxSidePixels = 16384;
+inline constexpr int kMaxSidePixels = 16384;            ///< unless --max-side says otherwise
+inline constexpr int kLargestMaxSide = 32768;           ///< a BMP file is smaller than 4 GiB
+inline constexpr std::size_t kLargestMaxDepth = 16384;  ///< what the stack bears
 inline constexpr int kMaxRepetitions = 1'000'000;
 
 /// What the user typed, checked. Paths are as typed.
@@ -22,6 +24,9 @@ struct Options {
     std::string profile_name = "exact";  ///< the bundle that `profile` started from
     Profile profile;                     ///< with the single answers put in
     x3d::Headlight headlight = x3d::Headlight::kAuto;
+    std::string viewpoint;  ///< empty: the first
+    x3d::Limits limits;
+    int max_side_pixels = kMaxSidePixels;
     std::optional<std::string> rays;
     std::optional<std::string> out;
     std::optional<std::string> json;
@@ -29,6 +34,7 @@ struct Options {
     std::optional<std::string> study_json;
     bool show_octree = false;
     bool compare = false;
+    bool describe = false;
     bool counters = false;
     bool quiet = false;
     bool help = false;
@@ -55,7 +61,8 @@ struct Flag {
     bool may_stand_alone() const { return value.starts_with('['); }
 };
 
-/// The table, in the order of the help. A flag that others refine stands before them.
+/// The table, in the order of the help. A flag that others refine stands before them, but for
+/// --max-side, which the parser takes first.
 const std::vector<Flag>& flags();
 
 /// Reads the arguments (without the program's name): flags in any order, each at most once, with

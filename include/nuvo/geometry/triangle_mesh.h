@@ -29,6 +29,8 @@ struct TriangleMesh {
     std::vector<IndexTriple> triangles;
     std::vector<Vector3> normals;               ///< world space, not necessarily unit; empty: flat
     std::vector<IndexTriple> normal_triangles;  ///< into normals; empty: same as `triangles`
+    std::vector<Vector3> colors;                ///< in place of the material's; empty: none
+    std::vector<IndexTriple> color_triangles;   ///< into colors; empty: same as `triangles`
 
     Triangle triangle(std::size_t i) const {
         const IndexTriple& v = triangles[i];

@@ -27,10 +27,11 @@ struct Scene {
     Camera camera;
     Background background;
     std::vector<Material> materials;
-    std::vector<Object> objects;        ///< in document order
-    std::vector<Light> lights;          ///< on, in document order; the headlight, if any, last
-    std::vector<std::string> warnings;  ///< what was read but not drawn, one line each
-    std::size_t shape_count = 0;        ///< Shapes met, drawn or not
+    std::vector<Object> objects;          ///< in document order
+    std::vector<Light> lights;            ///< on, in document order; the headlight, if any, last
+    std::vector<std::string> warnings;    ///< what was read but not drawn, one line each
+    std::size_t shape_count = 0;          ///< Shapes in the document, drawn or not
+    std::vector<std::string> viewpoints;  ///< the names of those that can be chosen
 };
 
 }  // namespace nuvo

@@ -17,23 +17,30 @@ class Error : public std::runtime_error {
 
 /// What a file may ask for, counted before memory is taken.
 struct Limits {
-    std::size_t depth = 4096;           ///< nested elements, in the file and after USE is expanded
-    std::size_t elements = 10'000'000;  ///< elements, in the file and after USE is expanded
-    std::size_t shapes = 2'000'000;     ///< Shapes after USE is expanded
-    std::size_t vertices = 20'000'000;  ///< points, normals and indices of all meshes, USE expanded
+    std::size_t depth = 4096;            ///< nested elements, in the file and after USE is expanded
+    std::size_t elements = 10'000'000;   ///< elements, in the file and after USE is expanded
+    std::size_t attributes = 5'000'000;  ///< attributes of a file
+    std::size_t shapes = 2'000'000;      ///< Shapes after USE and Inline are expanded
+    std::size_t vertices = 20'000'000;   ///< points, indices, normals and colors of all meshes
+    std::size_t file_bytes = 1'000'000'000;  ///< the file, unpacked, and all that it Inlines
 };
+
+/// How deep Inlines nest.
+inline constexpr std::size_t kMaxInlineDepth = 16;
 
 /// NavigationInfo's headlight: `kAuto` follows the file and, where it is silent, lights only a
 /// scene that has no light of its own.
 enum class Headlight { kAuto, kOn, kOff };
 
-/// Reads an X3D file (XML encoding, root X3D or a bare Scene) into world space.
-/// Throws Error, and std::bad_alloc.
+/// Reads an X3D file (XML encoding, perhaps packed by gzip; root X3D or a bare Scene) into world
+/// space. `viewpoint` chooses the camera: a Viewpoint's DEF or description, or its number from 1 in
+/// document order; empty: the first. Throws Error, and std::bad_alloc.
 Scene read_file(const std::filesystem::path& path, Headlight headlight = Headlight::kAuto,
-                const Limits& limits = {});
+                const Limits& limits = {}, const std::string& viewpoint = {});
 
-/// The same from the text of a file; `name` stands for it in messages.
+/// The same from the text of a file, which can Inline no other; `name` stands for it in messages.
 Scene read_text(const std::string& text, const std::string& name,
-                Headlight headlight = Headlight::kAuto, const Limits& limits = {});
+                Headlight headlight = Headlight::kAuto, const Limits& limits = {},
+                const std::string& viewpoint = {});
 
 }  // namespace nuvo::x3d

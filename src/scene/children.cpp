@@ -1,0 +1,82 @@
+#include "children.h"
+
+#include <vector>
+
+#include "node_names.h"
+
+namespace nuvo::x3d {
+
+namespace {
+
+bool is_node_to_draw(const Element& child) {
+    return !is_silent(child.name) && child.name != "ROUTE" && child.name != "IMPORT" &&
+           child.name != "EXPORT";
+}
+
+std::size_t count_drawn(const Element& parent) {
+    std::size_t count = 0;
+    for (const Element& child : parent.children)
+        if (is_node_to_draw(child)) ++count;
+    return count;
+}
+
+/// The viewer's distance from `center` in the units of the placement; a placement without a volume
+/// has none, and the distance is zero.
+double local_distance(const Placement& placement, const Point3& center, const Point3& viewer) {
+    const Matrix3& linear = placement.to_world.linear;
+    const double determinant = linear.determinant();
+    if (placement.singular || determinant == 0) return 0;
+    const Vector3 local =
+        linear.adjugate() * (viewer - placement.to_world.translation) / determinant;
+    return length(local - center);
+}
+
+}  // namespace
+
+bool is_proxy(const Element& child) {
+    const std::string* field = child.find("containerField");
+    return field != nullptr && *field == "proxy";
+}
+
+const Element* drawn_child(const Element& parent, std::size_t number) {
+    for (const Element& child : parent.children)
+        if (is_node_to_draw(child) && number-- == 0) return &child;
+    return nullptr;
+}
+
+const Element* chosen_child(const Element& node, const Fields& fields) {
+    const std::vector<std::int32_t> choice = fields.integers("whichChoice");
+    if (choice.size() > 1) fields.fail("whichChoice", "is more than one number");
+    if (choice.empty() || choice[0] < 0) return nullptr;
+    return drawn_child(node, static_cast<std::size_t>(choice[0]));
+}
+
+const Element* chosen_level(const Element& node, const Fields& fields, const Placement& placement,
+                            const Point3& viewer) {
+    const std::size_t levels = count_drawn(node);
+    if (levels == 0) return nullptr;
+    const double distance = local_distance(placement, fields.vector("center", {}), viewer);
+    std::size_t level = 0;
+    for (const double range : fields.numbers("range")) {
+        if (distance < range) break;
+        ++level;
+    }
+    return drawn_child(node, level < levels ? level : levels - 1);
+}
+
+std::size_t count_shapes(const Element& element, const Documents& documents) {
+    std::size_t count = 0;
+    std::vector<const Element*> pending{&element};
+    while (!pending.empty()) {
+        const Element& node = pending.back()->node();
+        pending.pop_back();
+        if (node.name == "Shape") ++count;
+        if (const Document* document = documents.inlined(node); document != nullptr)
+            pending.push_back(document->scene);
+        for (const Element& child : node.children)
+            if (!is_declaration(child)) pending.push_back(&child);
+    }
+    return count;
+}
+
+}  // namespace nuvo::x3d

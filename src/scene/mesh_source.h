@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "fields.h"
+#include "polygons.h"
+
+namespace nuvo::x3d {
+
+/// Points, indices, normals and colors that the meshes of a scene may still read.
+struct VertexBudget {
+    std::size_t limit;
+    std::size_t used = 0;
+
+    /// Takes `count` of it; throws Error at the geometry `fields` when there is no more.
+    void take(std::size_t count, const Fields& fields);
+};
+
+/// One geometry node while its polygons are gathered.
+struct MeshSource {
+    const Fields& fields;
+    Messages& messages;
+    VertexBudget& budget;
+    const Element* coordinate = nullptr;  ///< property nodes; null where there is none
+    const Element* normal = nullptr;
+    const Element* color = nullptr;
+    bool ccw = true;
+    Polygons polygons;
+};
+
+/// `index` as a place in a list of `count` `what`s; throws Error at entry `entry` of `field`.
+std::uint32_t checked(std::int64_t index, std::size_t count, const Fields& fields,
+                      std::string_view field, std::size_t entry, const char* what);
+
+/// How a list of values is spread over polygons (ISO/IEC 19775-1 clauses 11 and 13).
+struct Spread {
+    bool per_vertex = true;           ///< else one value per polygon
+    std::vector<std::int32_t> index;  ///< into the values; empty: by the points, or in order
+    /// For polygons of an IndexedFaceSet: per polygon its number among all faces, and per corner
+    /// its place in coordIndex. Empty: the polygons' own order.
+    const std::vector<std::uint32_t>* faces = nullptr;
+    const std::vector<std::uint32_t>* entries = nullptr;
+};
+
+/// Reads the Normal and the Color of a node, as far as it has them, and gives them to its polygons.
+void read_normals(MeshSource& source, const Spread& spread);
+void read_colors(MeshSource& source, const Spread& spread);
+
+/// Generates normals below `crease_angle` and counts the work against the budget.
+void smooth(MeshSource& source, double crease_angle);
+
+// The readers of the geometry nodes: each appends its polygons, normals and colors.
+void read_face_set(MeshSource& source);
+void read_triangle_set(MeshSource& source);
+void read_elevation_grid(MeshSource& source);
+void read_box(MeshSource& source);
+void read_cone(MeshSource& source);
+void read_cylinder(MeshSource& source);
+
+}  // namespace nuvo::x3d

@@ -1,0 +1,75 @@
+#include "repeats.h"
+
+#include <bit>
+
+namespace nuvo::x3d {
+
+namespace {
+
+/// Mixes words into one (Fowler, Noll and Vo's scheme on words, with a final stir).
+class Hash {
+  public:
+    void add(std::uint64_t word) {
+        state_ = (state_ ^ word) * 0x100000001b3;
+        state_ ^= state_ >> 29;
+    }
+    void add(double value) { add(std::bit_cast<std::uint64_t>(value)); }
+    void add(const Vector3& v) {
+        add(v.x);
+        add(v.y);
+        add(v.z);
+    }
+    std::uint64_t value() const { return state_; }
+
+  private:
+    std::uint64_t state_ = 0xcbf29ce484222325;
+};
+
+std::uint64_t hash_of(const Shape& shape) {
+    Hash hash;
+    hash.add(std::uint64_t{shape.index()});
+    if (const auto* sphere = std::get_if<Sphere>(&shape)) {
+        hash.add(sphere->center);
+        hash.add(sphere->radius);
+    } else if (const auto* ellipsoid = std::get_if<Ellipsoid>(&shape)) {
+        hash.add(ellipsoid->center);
+        hash.add(ellipsoid->radius);
+        for (const Vector3& row : ellipsoid->linear.row) hash.add(row);
+    } else {
+        const auto& mesh = std::get<TriangleMesh>(shape);
+        for (const Point3& p : mesh.positions) hash.add(p);
+        for (const IndexTriple& t : mesh.triangles) {
+            hash.add(std::uint64_t{t[0]} << 32 | t[1]);
+            hash.add(std::uint64_t{t[2]});
+        }
+    }
+    return hash.value();
+}
+
+bool same_surface(const Shape& a, const Shape& b) {
+    if (a.index() != b.index()) return false;
+    if (const auto* sphere = std::get_if<Sphere>(&a)) {
+        const auto& other = std::get<Sphere>(b);
+        return sphere->center == other.center && sphere->radius == other.radius;
+    }
+    if (const auto* ellipsoid = std::get_if<Ellipsoid>(&a)) {
+        const auto& other = std::get<Ellipsoid>(b);
+        return ellipsoid->center == other.center && ellipsoid->linear == other.linear &&
+               ellipsoid->radius == other.radius;
+    }
+    const auto &mesh = std::get<TriangleMesh>(a), &other = std::get<TriangleMesh>(b);
+    return mesh.triangles == other.triangles && mesh.positions == other.positions;
+}
+
+}  // namespace
+
+bool Repeats::is_repeat(const Shape& shape, const std::vector<Object>& objects) {
+    const std::uint64_t hash = hash_of(shape);
+    const auto [first, last] = objects_.equal_range(hash);
+    for (auto known = first; known != last; ++known)
+        if (same_surface(objects[known->second].shape, shape)) return true;
+    objects_.emplace(hash, static_cast<std::uint32_t>(objects.size()));
+    return false;
+}
+
+}  // namespace nuvo::x3d
