@@ -48,6 +48,19 @@ TEST(Picture, OfAppendixGIsThatOfTwoBrowsers) {
                                 {190, 185, 64, 64, 64}});
 }
 
+// In float, 1e6 away from the origin and with a step of 0.1 smallest voxels, the pushed point went to
+// and fro between two leaves for ever.
+TEST(BadCases, TheNudgedWalkEndsWhereThePushedPointMakesNoHeadway) {
+    const Scene scene = x3d::read_file(NUVO_SOURCE_DIR "/testfiles/hard/moved-by-1e6.x3d");
+    Profile profile = thesis_profile();
+    profile.step = 0.1;
+    const Primitives primitives = flatten(scene, profile.leaves);
+    const Octree octree = build_tree(scene, primitives, profile);
+    const TraceCounts counts = count_events(scene, primitives, octree, profile, {160, 90});
+    const std::uint64_t rays = counts.primary_rays + counts.shadow_rays;
+    EXPECT_LE(counts.voxel_searches, rays * (octree.leaf_count() + 1));
+}
+
 // One white triangle in the plane z = 0 seen along the axis: at the middle of the picture the
 // weights of a, b, c are 1/4, 1/4, 1/2.
 Scene one_triangle(double eye_z) {
