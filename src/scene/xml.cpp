@@ -41,14 +41,31 @@ class Reader {
     Reader(const std::string& file, const std::vector<std::uint32_t>& lines, Names& names)
         : file_(file), lines_(lines), names_(names) {}
 
-    /// Appends what `part` holds to `siblings`, in document order.
-    void read(const Outline& part, std::vector<Element>& siblings) {
-        if (!part.run.empty()) return read_run(part, siblings);
-        // A large or deep element: its start tag alone, then its content part by part.
-        read_tag(part, siblings);
-        std::vector<Element>& children = siblings.back().children;
-        children.reserve(part.children);
-        for (const Outline& inner : part.parts) read(inner, children);
+    /// Appends what `root` holds to `roots`, in document order. No recursion: the document may be
+    /// as deep as the limits allow.
+    void read(const Outline& root, std::vector<Element>& roots) {
+        struct Open {
+            const std::vector<Outline>* parts;
+            std::size_t next;
+            std::vector<Element>* siblings;  // stays in place until all parts are read
+        };
+        std::vector<Open> open;
+        const auto enter = [&](const Outline& part, std::vector<Element>& siblings) {
+            if (!part.run.empty()) return read_run(part, siblings);
+            // A large or deep element: its start tag alone, then its content part by part.
+            read_tag(part, siblings);
+            std::vector<Element>& children = siblings.back().children;
+            children.reserve(part.children);
+            open.push_back({&part.parts, 0, &children});
+        };
+        enter(root, roots);
+        while (!open.empty()) {
+            Open& top = open.back();
+            if (top.next == top.parts->size())
+                open.pop_back();
+            else
+                enter((*top.parts)[top.next++], *top.siblings);
+        }
     }
 
   private:

@@ -11,9 +11,9 @@
 
 namespace nuvo::app {
 
-inline constexpr int kMaxSidePixels = 16384;            ///< unless --max-side says otherwise
-inline constexpr int kLargestMaxSide = 32768;           ///< a BMP file is smaller than 4 GiB
-inline constexpr std::size_t kLargestMaxDepth = 16384;  ///< what the stack bears
+inline constexpr int kMaxSidePixels = 16384;           ///< unless --max-side says otherwise
+inline constexpr int kLargestMaxSide = 32768;          ///< a BMP file is smaller than 4 GiB
+inline constexpr std::size_t kLargestMaxDepth = 8192;  ///< what the stack bears
 inline constexpr int kMaxRepetitions = 1'000'000;
 
 /// What the user typed, checked. Paths are as typed.
