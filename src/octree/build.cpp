@@ -35,6 +35,7 @@ class Builder {
         Items all(boxes_.size());
         for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<ItemId>(i);
         totals_ = {0, root_area_, root_area_ * static_cast<double>(all.size()), 1};
+        references_ = all.size();
         subdivide(0, all);
         return Octree(std::move(nodes_), std::move(leaf_items_));
     }
@@ -61,6 +62,7 @@ class Builder {
         const Label label = nodes_[index].label;
         const int digits = label_digits(label);
         if (digits >= kMaxLabelDigits || digits + 1 >= options_.max_depth) return false;
+        if (references_ >= options_.max_references) return false;
         if (const auto* rule = std::get_if<MaxObjects>(&options_.worth))
             if (items.size() <= rule->count) return false;
         Voxel voxel = nodes_[index].voxel;
@@ -83,6 +85,8 @@ class Builder {
         if (!worth_it(after, items, children)) return false;
 
         totals_ = after;
+        for (const Items& child : children) references_ += child.size();
+        references_ -= items.size();
         nodes_[index].voxel = voxel;
         nodes_[index].first_child = static_cast<NodeIndex>(nodes_.size());
         for (int digit = 1; digit <= 8; ++digit)
@@ -136,6 +140,7 @@ class Builder {
     std::vector<Node> nodes_;
     Items leaf_items_;
     SahTotals totals_;
+    std::size_t references_ = 0;  // of all leaves so far
     double root_area_ = 0;
 };
 

@@ -171,6 +171,24 @@ TEST(Build, MaxObjectsCutsUntilNoLeafHoldsMore) {
     EXPECT_EQ(build_octree(boxes, options).leaf_count(), 1U);
 }
 
+TEST(Build, CutsNothingMoreOnceItsReferencesAreSpent) {
+    const auto boxes = random_boxes(6, 400, 60);  // each spans most of the root
+    BuildOptions options;
+    // A price under which every cut seems worth it.
+    options.worth = CostModel([](std::size_t leaves) {
+        return SahCosts{0, 1.0 / (static_cast<double>(leaves) * static_cast<double>(leaves)), 0};
+    });
+    options.max_depth = 4;
+    const std::size_t unlimited = build_octree(boxes, options).reference_count();
+    options.max_references = 4000;
+    const std::size_t limited = build_octree(boxes, options).reference_count();
+    EXPECT_GT(unlimited, 15000U);
+    EXPECT_LT(limited, 4000U + 8 * boxes.size());  // the last cut may overshoot
+    EXPECT_GE(limited, 400U);
+    options.max_references = unlimited;
+    EXPECT_EQ(build_octree(boxes, options).reference_count(), unlimited);
+}
+
 TEST(Build, StopsAtNineteenDigits) {
     // Two boxes that no cut above level 19 can tell apart.
     const double tiny = 0x1p-60;

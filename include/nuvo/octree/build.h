@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <span>
 #include <variant>
 
@@ -25,6 +26,9 @@ struct BuildOptions {
     OverlapTest overlaps;  ///< empty: the boxes decide
     double margin = 0;     ///< items are listed where they come this near; scene units
     int max_depth = kMaxLabelDigits + 1;  ///< levels, 1..20
+    /// No voxel is cut once the leaves hold this many references to items: a bound on time and
+    /// memory where items lie so close that cuts hardly part them.
+    std::size_t max_references = std::numeric_limits<std::size_t>::max();
 };
 
 /// Cuts the box of all `boxes` into an octree, depth first in label order; a split under which the
