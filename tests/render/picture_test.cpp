@@ -48,8 +48,8 @@ TEST(Picture, OfAppendixGIsThatOfTwoBrowsers) {
                                 {190, 185, 64, 64, 64}});
 }
 
-// In float, 1e6 away from the origin and with a step of 0.1 smallest voxels, the pushed point went to
-// and fro between two leaves for ever.
+// In float, 1e6 away from the origin and with a step of 0.1 smallest voxels, the pushed point went
+// to and fro between two leaves for ever.
 TEST(BadCases, TheNudgedWalkEndsWhereThePushedPointMakesNoHeadway) {
     const Scene scene = x3d::read_file(NUVO_SOURCE_DIR "/testfiles/hard/moved-by-1e6.x3d");
     Profile profile = thesis_profile();
