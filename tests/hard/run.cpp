@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <iomanip>
+#include <limits>
 #include <mutex>
 #include <ostream>
 #include <sstream>
@@ -78,7 +79,9 @@ std::string judge_one(const Oracle& oracle, const Ray& ray, const RayAnswer& ans
         if (!other || relative(prepared.t(*other) - t, t) > kAgree) ++tally.wrong_apart;
         return "wrong primitive";
     }
-    const double error = relative(Real(answer.t) - t, t);
+    // Below the normal range a double has no relative accuracy to ask for.
+    const Real normal = std::max(t, Real(std::numeric_limits<double>::min()));
+    const double error = relative(Real(answer.t) - t, normal);
     double& worst = truth->root.near_tangency ? tally.worst_t_tangent : tally.worst_t;
     worst = std::max(worst, error);
     return "";
