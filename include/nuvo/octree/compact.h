@@ -1,0 +1,53 @@
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "nuvo/math/bounds.h"
+
+namespace nuvo {
+
+/// One node of a CompactOctree in 16 bytes: an interior node with its cut and the non-empty of its
+/// children, or a leaf with its run of items.
+struct CompactNode {
+    float cut[3] = {};           ///< interior: the planes x, y, z = cut; leaf: two integers
+    std::uint32_t children = 0;  ///< place of the first child << 8 | mask of non-empty octants
+
+    static constexpr std::uint32_t kMaxNodes = 1U << 24;  ///< what the place of a child can name
+
+    static CompactNode leaf(std::uint32_t first, std::uint32_t count) {
+        return {{std::bit_cast<float>(first), std::bit_cast<float>(count), 0}, 0};
+    }
+    bool is_leaf() const { return (children & 0xff) == 0; }
+    /// Bit o is set where octant o holds items; octant bits: 1 upper x, 2 upper y, 4 upper z.
+    std::uint32_t mask() const { return children & 0xff; }
+    std::uint32_t first_child() const { return children >> 8; }
+    /// The place of a non-empty octant's node.
+    std::uint32_t child(unsigned octant) const {
+        return first_child() +
+               static_cast<std::uint32_t>(std::popcount(mask() & ((1U << octant) - 1)));
+    }
+    std::uint32_t first_item() const { return std::bit_cast<std::uint32_t>(cut[0]); }
+    std::uint32_t item_count() const { return std::bit_cast<std::uint32_t>(cut[1]); }
+};
+static_assert(sizeof(CompactNode) == 16);
+
+/// An octree for tracing: nothing but cuts and non-empty children, node 0 the root, the children of
+/// a node side by side in octant order. A voxel is known on the way down only: `bounds` cut by the
+/// planes of its ancestors. An item is listed in every leaf whose closed voxel it touches.
+struct CompactOctree {
+    static constexpr int kMaxDepth = 24;  ///< levels, the root's included
+
+    Bounds3T<float> bounds;
+    std::vector<CompactNode> nodes;
+    std::vector<std::uint32_t> items;  ///< of the leaves' runs; each run ascends
+
+    /// Bytes of nodes and references.
+    std::size_t memory_bytes() const {
+        return nodes.size() * sizeof(CompactNode) + items.size() * sizeof(std::uint32_t);
+    }
+};
+
+}  // namespace nuvo

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "nuvo/image/image.h"
+#include "nuvo/math/ray.h"
+#include "nuvo/render/primitives.h"
+#include "nuvo/render/profile.h"
+#include "nuvo/render/render.h"
+#include "nuvo/scene/scene.h"
+
+namespace nuvo {
+
+/// Vector instruction sets of x86; every one gives the same bytes.
+enum class InstructionSet : std::uint8_t { kBest, kAvx512, kAvx2, kSse4, kSse2 };
+
+/// Those that this machine has, the best first; never kBest.
+std::vector<InstructionSet> supported_instruction_sets();
+
+struct FastOptions {
+    OctreeType type = OctreeType::kUniform;
+    int threads = 1;  ///< >= 1; the picture does not depend on it
+    InstructionSet isa = InstructionSet::kBest;
+    /// False: what the float stage leaves open is decided by its rounded values. For measuring what
+    /// exactness costs; pictures may then differ from the exact profile's.
+    bool redo_exactly = true;
+};
+
+/// Bytes held by a FastTracer.
+struct FastMemory {
+    std::size_t structure = 0;  ///< nodes, references and leaf copies
+    std::size_t tables = 0;     ///< per camera and light, made anew for each picture
+};
+
+/// Processor time by stage, in seconds, summed over the threads.
+struct FastTimes {
+    double tables = 0;
+    double primary = 0;
+    double shadow = 0;
+    double shading = 0;
+};
+
+/// Renders what the exact profile renders, to the byte, by coherent groups of rays in vector
+/// registers. Keeps references to scene and primitives (leaf items: single primitives).
+class FastTracer {
+  public:
+    /// Builds the octree.
+    FastTracer(const Scene& scene, const Primitives& primitives, const FastOptions& options);
+    ~FastTracer();
+    FastTracer(FastTracer&&) noexcept;
+    FastTracer& operator=(FastTracer&&) noexcept;
+
+    /// Adds to `times` if it is given, at a small cost.
+    Image render(Resolution resolution, FastTimes* times = nullptr);
+    /// The closest hit of each ray, as closest_hits() answers it.
+    std::vector<RayAnswer> closest_hits(std::span<const Ray> rays) const;
+
+    FastMemory memory() const;
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace nuvo
