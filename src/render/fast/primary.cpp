@@ -49,35 +49,40 @@ class PrimaryTracer {
   private:
     static constexpr float kRoundoff = 0x1p-24F;
     static constexpr float kEntryRounding = 4 * kRoundoff;
+    static constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    const Ints none_{static_cast<std::int32_t>(kNoSlot)};
 
     // Lanes outside of the picture get a hit nearer than any.
     void clear() {
-        constexpr float kInfinity = std::numeric_limits<float>::infinity();
         const int width = job_.camera.resolution.width - tile_.x;
         const int height = job_.camera.resolution.height - tile_.y;
+        const bool whole = width >= kTileSide && height >= kTileSide;
         for (int b = 0; b < kTileBlocks; ++b) {
-            std::uint32_t inside = 0;
-            for (int lane = 0; lane < kBlockLanes; ++lane) {
-                const int at = b * kBlockLanes + lane;
-                if (lane_x(at) < width && lane_y(at) < height) inside |= 1U << lane;
-            }
+            const std::uint32_t inside = whole ? 0xffff : lanes_inside(b, width, height);
             tile_.inside[b] = static_cast<std::uint16_t>(inside);
             const Floats near = select(RayMask::from_bits(inside), Floats(0.0F), Floats(kInfinity));
             near.store(tile_.near_low + b * kBlockLanes);
             near.store(tile_.near_high + b * kBlockLanes);
             block_near_[b] = inside != 0 ? 0 : kInfinity;
-            const Ints none(static_cast<std::int32_t>(kNoSlot));
-            none.store(reinterpret_cast<std::int32_t*>(tile_.slot) + b * kBlockLanes);
+            none_.store(slots(b));
         }
+    }
+    static std::uint32_t lanes_inside(int b, int width, int height) {
+        std::uint32_t inside = 0;
+        for (int lane = 0; lane < kBlockLanes; ++lane) {
+            const int at = b * kBlockLanes + lane;
+            if (lane_x(at) < width && lane_y(at) < height) inside |= 1U << lane;
+        }
+        return inside;
+    }
+
+    std::int32_t* slots(int b) {
+        return reinterpret_cast<std::int32_t*>(tile_.slot) + b * kBlockLanes;
     }
 
     void finish() {
-        for (int b = 0; b < kTileBlocks; ++b) {
-            const Ints slots =
-                Ints::load(reinterpret_cast<const std::int32_t*>(tile_.slot) + b * kBlockLanes);
-            const auto hit = slots != Ints(static_cast<std::int32_t>(kNoSlot));
-            tile_.hit[b] = static_cast<std::uint16_t>(hit.bits());
-        }
+        for (int b = 0; b < kTileBlocks; ++b)
+            tile_.hit[b] = static_cast<std::uint16_t>((Ints::load(slots(b)) != none_).bits());
     }
 
     HWY_INLINE void test_triangle(Slot slot) {

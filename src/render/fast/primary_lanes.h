@@ -199,9 +199,10 @@ struct SphereHits {
         const Floats error(over.square_error);
         meets = discriminant > error;
         perhaps = discriminant >= -error;
-        root = sqrt(max(discriminant, Floats(0.0F)));
+        const Floats positive = max(discriminant, Floats(0.0F));
+        root = sqrt(positive);
         if (s.inverse_power < 0) root = -root;  // from inside the far one
-        root_error = min(error / abs(root), Floats(over.root_error));
+        root_error = min(error * above_inverse_sqrt(positive), Floats(over.root_error));
         const Floats b =
             mul_add(x, Floats(over.b_right), mul_add(y, Floats(over.b_down), Floats(over.b)));
         const Floats q = (root - b) * Floats(s.inverse_power);
