@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 // A fixed number of numbers as one value, in as many registers as the instruction set needs: the
 // kernels are written once for 16 rays or 8 octants, whatever the width of a register.
@@ -99,6 +100,17 @@ struct Lanes : LaneShape<T, N> {
         Lanes v;
         for (std::size_t i = 0; i < Shape::kParts; ++i)
             v.part[i] = hn::LoadU(Tag(), from + i * Shape::kPart);
+        return v;
+    }
+    /// From 16-bit numbers.
+    static HWY_INLINE Lanes from_shorts(const std::uint16_t* from) requires(
+        std::is_same_v<T, float>) {
+        using Narrow = hn::FixedTag<std::uint16_t, Shape::kPart>;
+        using Wide = hn::FixedTag<std::int32_t, Shape::kPart>;
+        Lanes v;
+        for (std::size_t i = 0; i < Shape::kParts; ++i)
+            v.part[i] = hn::ConvertTo(
+                Tag(), hn::PromoteTo(Wide(), hn::LoadU(Narrow(), from + i * Shape::kPart)));
         return v;
     }
     HWY_INLINE void store(T* to) const {
