@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <type_traits>
 
 // A fixed number of numbers as one value, in as many registers as the instruction set needs: the
@@ -122,6 +123,35 @@ struct Lanes : LaneShape<T, N> {
         for (std::size_t i = 0; i < Shape::kParts; ++i)
             hn::BlendedStore(part[i], mask.part[i], Tag(), to + i * Shape::kPart);
     }
+    /// from[0] in even lanes, from[1] in odd ones.
+    static HWY_INLINE Lanes pairs(const std::uint32_t* from) requires(
+        std::is_same_v<T, std::int32_t>) {
+        Lanes v;
+        if constexpr (Shape::kPart == 1) {
+            for (std::size_t i = 0; i < Shape::kParts; ++i)
+                v.part[i] = hn::Set(Tag(), static_cast<std::int32_t>(from[i % 2]));
+        } else {
+            using Pair = hn::FixedTag<std::uint64_t, HWY_MAX(Shape::kPart / 2, 1)>;
+            std::uint64_t both;
+            std::memcpy(&both, from, sizeof both);
+            for (std::size_t i = 0; i < Shape::kParts; ++i)
+                v.part[i] = hn::BitCast(Tag(), hn::Set(Pair(), both));
+        }
+        return v;
+    }
+    /// Lane i is lane index[i] of this; index[i] < N.
+    HWY_INLINE Lanes permuted(const Lanes<std::int32_t, N>& index) const requires(sizeof(T) == 4) {
+        Lanes v;
+        if constexpr (Shape::kParts == 1) {
+            v.part[0] = hn::TableLookupLanes(
+                part[0], hn::IndicesFromVec(Tag(), index.part[0]));
+        } else {
+            alignas(64) T values[N];
+            store(values);
+            v = gather(values, index);
+        }
+        return v;
+    }
     /// base[index[lane]]; indices of lanes that are not wanted must be valid, too.
     static HWY_INLINE Lanes gather(const T* base,
                                    const Lanes<std::int32_t, N>& index) requires(sizeof(T) == 4) {
@@ -141,6 +171,7 @@ struct Lanes : LaneShape<T, N> {
     NUVO_LANES_BINARY(-, Sub)
     NUVO_LANES_BINARY(*, Mul)
     NUVO_LANES_BINARY(/, Div)
+    NUVO_LANES_BINARY(&, And)
 #undef NUVO_LANES_BINARY
 #define NUVO_LANES_COMPARE(op, function)                                 \
     friend HWY_INLINE Mask operator op(const Lanes& a, const Lanes& b) { \
@@ -174,6 +205,10 @@ struct Lanes : LaneShape<T, N> {
     }
     friend HWY_INLINE Lanes sqrt(Lanes a) {
         for (std::size_t i = 0; i < Shape::kParts; ++i) a.part[i] = hn::Sqrt(a.part[i]);
+        return a;
+    }
+    friend HWY_INLINE Lanes operator>>(Lanes a, const Lanes& bits) {
+        for (std::size_t i = 0; i < Shape::kParts; ++i) a.part[i] = hn::Shr(a.part[i], bits.part[i]);
         return a;
     }
     friend HWY_INLINE Lanes floor(Lanes a) {

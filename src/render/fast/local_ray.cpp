@@ -5,6 +5,9 @@
 namespace nuvo {
 namespace {
 
+constexpr std::uint32_t kRow = kWideLanes;  // floats, in WideNode
+constexpr std::uint32_t kToHigh = 3 * kRow;
+
 // The power of two that brings a positive normal number to [1, 2).
 double to_unit(double value) { return std::ldexp(1.0, -std::ilogb(value)); }
 
@@ -47,6 +50,7 @@ LocalRay::LocalRay(const Ray& ray, const LocalFrame& frame, float reach) {
         }
     }
     behind = advance > 0 ? -0.25F : 0.0F;
+    signs = 0;
     double sum = 0;
     double margin = 0;
     for (int axis = 0; axis < 3; ++axis) {
@@ -61,9 +65,11 @@ LocalRay::LocalRay(const Ray& ray, const LocalFrame& frame, float reach) {
         margin = std::fmax(margin, slack);
         near_add[axis] = static_cast<float>(-o[axis] * i - slack * std::fabs(i));
         far_add[axis] = static_cast<float>(-o[axis] * i + slack * std::fabs(i));
-        constexpr std::uint32_t kToHigh = 3 * kWideLanes;
-        near_offset[axis] =
-            static_cast<std::uint32_t>(axis) * kWideLanes + (std::signbit(d[axis]) ? kToHigh : 0);
+        const std::uint32_t row = static_cast<std::uint32_t>(axis) * kRow;
+        const bool negative = std::signbit(d[axis]);
+        near_offset[axis] = row + (negative ? kToHigh : 0);
+        signs |= negative ? 1U << axis : 0U;
+        far_offset[axis] = row + (negative ? 0 : kToHigh);
     }
     direction_sum = static_cast<float>(sum * (1 + 0x1p-22));
     square = static_cast<float>(dot(d, d));

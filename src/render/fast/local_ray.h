@@ -32,6 +32,8 @@ struct alignas(64) LocalRay {
     float near_add[3];
     float far_add[3];
     std::uint32_t near_offset[3];  ///< of the nearer faces, in floats from WideNode::low
+    std::uint32_t far_offset[3];
+    std::uint32_t signs;  ///< of d: which of WideNode::order
     float direction[3];
     float direction_sum;  ///< bounds |d.x| + |d.y| + |d.z|
     float square;         ///< |d|^2 rounded

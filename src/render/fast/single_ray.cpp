@@ -1,9 +1,13 @@
 #include "fast/single_ray.h"
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <memory>
+#include <utility>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "fast/single_ray.cpp"
@@ -19,111 +23,143 @@
 HWY_BEFORE_NAMESPACE();
 namespace nuvo::HWY_NAMESPACE {
 
-class SingleWalk {
+class Flights {
   public:
-    HWY_INLINE SingleWalk(const SingleRays& rays, const Ray& world, const LocalRay& ray)
-        : rays_(rays), world_(world), ray_(ray), tree_(rays.tree()) {}
+    static constexpr std::uint32_t kFlights = 8;
 
-    HWY_INLINE Slot run() {
-        std::uint64_t* top = waiting_;
-        std::uint64_t next = 0;  // the root
-        for (;;) {
-            const auto place = static_cast<std::uint32_t>(next);
-            if ((place & WideOctree::kLeaf) != 0) {
-                test_leaf(tree_.leaves.data() + (place & ~WideOctree::kLeaf), entry_of(next));
-            } else if (step(tree_.nodes[place], top, next)) {
-                continue;
+    Flights(const SingleRays& rays, std::span<const Ray> batch, Slot* found)
+        : rays_(rays), tree_(rays.tree()), batch_(batch), found_(found) {}
+
+    void run() {
+        for (std::uint32_t i = 0; i < kFlights; ++i) depart(flights_[i], i);
+        while (at_nodes_.count + at_leaves_.count > 0) {
+            for (std::uint32_t count = at_nodes_.restart(), i = 0; i < count; ++i) {
+                const std::uint32_t number = at_nodes_.flight[i];
+                step(flights_[number]);
+                queue(number);
             }
-            do {
-                if (top == waiting_) return nearest();
-                next = *--top;
-            } while (entry_of(next) > best_);
+            if (at_leaves_.count * 2 < kFlights && at_nodes_.count > 0) continue;
+            for (std::uint32_t count = at_leaves_.restart(), i = 0; i < count; ++i) {
+                const std::uint32_t number = at_leaves_.flight[i];
+                test_leaf(flights_[number]);
+                flights_[number].take_next();
+                queue(number);
+            }
         }
     }
 
   private:
     static constexpr float kInfinity = std::numeric_limits<float>::infinity();
-    static constexpr std::size_t kMaxCandidates = 64;
 
-    // A voxel still to be visited: the parameter of its entry, never negative, as bits in the upper
-    // half, so that nearer ones compare less.
-    static HWY_INLINE float entry_of(std::uint64_t waiting) {
-        return std::bit_cast<float>(static_cast<std::uint32_t>(waiting >> 32));
+    // The numbers of flights in one state. Read from the front while it is filled anew.
+    struct Queue {
+        std::uint32_t count = 0;
+        std::uint32_t flight[kFlights + 1];
+        HWY_INLINE std::uint32_t restart() { return std::exchange(count, 0U); }
+        HWY_INLINE void add(std::uint32_t number, bool really) {
+            flight[count] = number;
+            count += really ? 1 : 0;
+        }
+    };
+
+    HWY_INLINE void queue(std::uint32_t number) {
+        RayFlight& flight = flights_[number];
+        if (flight.next == RayFlight::kLanded) {
+            land(flight);
+            depart(flight, number);
+            return;
+        }
+        const bool leaf = (flight.next & WideOctree::kLeaf) != 0;
+        at_leaves_.add(number, leaf);
+        at_nodes_.add(number, !leaf);
     }
 
-    // Puts what the ray meets of the node on the stack, the nearest into `next`; false: nothing.
-    HWY_INLINE bool step(const WideNode& node, std::uint64_t*& top, std::uint64_t& next) const {
-        constexpr std::uint32_t kToFar = 3 * kWideLanes;
+    // Lets the next ray of the batch take the place, if there is one.
+    void depart(RayFlight& flight, std::uint32_t number) {
+        while (next_ < batch_.size()) {
+            const std::size_t index = next_++;
+            flight.ray = LocalRay(batch_[index], rays_.scene().frame(), tree_.reach);
+            if (flight.ray.valid) {
+                flight.start(index);
+                at_nodes_.add(number, true);
+                return;
+            }
+            found_[index] = rays_.by_force(batch_[index]);
+        }
+    }
+
+    // One node: what the ray meets of it waits on a level of its own.
+    HWY_INLINE void step(RayFlight& flight) const {
+        const WideNode& node = tree_.nodes[flight.next];
+        const LocalRay& ray = flight.ray;
         Floats first(0.0F);
-        Floats last(best_);
+        Floats last(flight.best);
         for (int axis = 0; axis < 3; ++axis) {
-            const float* const near = node.low[0] + ray_.near_offset[axis];
-            const float* const far =
-                node.low[0] + (ray_.near_offset[axis] < kToFar ? ray_.near_offset[axis] + kToFar
-                                                               : ray_.near_offset[axis] - kToFar);
-            const Floats inverse(ray_.inverse[axis]);
-            first = max(mul_add(Floats::load(near), inverse, Floats(ray_.near_add[axis])), first);
-            last = min(mul_add(Floats::load(far), inverse, Floats(ray_.far_add[axis])), last);
+            const Floats inverse(ray.inverse[axis]);
+            first = max(mul_add(Floats::load(node.low[0] + ray.near_offset[axis]), inverse,
+                                Floats(ray.near_add[axis])),
+                        first);
+            last = min(mul_add(Floats::load(node.low[0] + ray.far_offset[axis]), inverse,
+                               Floats(ray.far_add[axis])),
+                       last);
         }
-        std::uint32_t met = (first <= last).bits();
-        if (met == 0) return false;
-        alignas(64) float entry[kWideLanes];
-        first.store(entry);
-        next = waiting(entry, node, met);
-        for (met &= met - 1; met != 0; met &= met - 1) {
-            std::uint64_t one = waiting(entry, node, met);
-            if (one < next) std::swap(one, next);
-            // Kept sorted, the nearest on top.
-            std::uint64_t* place = top++;
-            *place = one;
-        }
-        return true;
+        const Ints order = lanes_of(node.order[ray.signs]);
+        const Floats entry = first.permuted(order);
+        RayFlight::Level& level = flight.levels[flight.depth];
+        entry.store(level.entry);
+        level.child = node.child;
+        level.order = node.order[ray.signs];
+        level.waiting = (entry <= last.permuted(order)).bits();
+        flight.depth += level.waiting != 0 ? 1 : 0;
+        flight.take_next();
     }
-    static HWY_INLINE std::uint64_t waiting(const float* entry, const WideNode& node,
-                                            std::uint32_t met) {
-        const int lane = std::countr_zero(met);
-        return static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(entry[lane])) << 32 |
-               node.child[lane];
+    static HWY_INLINE Ints lanes_of(const std::uint32_t* order) {
+        alignas(64) static constexpr std::int32_t kShift[kWideLanes] = {
+            0, 0, 4, 4, 8, 8, 12, 12, 16, 16, 20, 20, 24, 24, 28, 28};
+        return (Ints::pairs(order) >> Ints::load(kShift)) & Ints(15);
     }
 
-    HWY_INLINE void test_leaf(const std::uint32_t* words, float entry) {
+    HWY_INLINE void test_leaf(RayFlight& flight) const {
+        const std::uint32_t* const words =
+            tree_.leaves.data() + (flight.next & ~WideOctree::kLeaf);
         WideLeafHead head;
         std::memcpy(&head, words, sizeof head);
         const Slot* const slots = words + kLeafHeadWords;
         const std::uint32_t copied = head.triangles + head.spheres;
-        if (head.unit < ray_.least_unit) {
-            add_open(slots, copied + head.others);
+        if (head.unit < flight.ray.least_unit) {
+            add_open(flight, slots, copied + head.others);
             return;
         }
-        const RayAtLeaf at(ray_, head, entry);
+        const RayAtLeaf at(flight.ray, head, flight.next_entry);
         const std::uint32_t* const data = slots + copied + head.others;
         const auto* const spheres = reinterpret_cast<const float*>(data);
         const auto* const corners =
             reinterpret_cast<const std::uint16_t*>(data + std::size_t{4} * head.spheres);
         for (std::uint32_t i = 0; i < head.triangles; i += kWideLanes)
-            take(test_triangles(at, corners + i, head.triangles, rays_.bounds_scale()), slots + i,
-                 head.triangles - i);
+            take(flight, test_triangles(at, corners + i, head.triangles, rays_.bounds_scale()),
+                 slots + i, head.triangles - i);
         for (std::uint32_t i = 0; i < head.spheres; i += kWideLanes)
-            take(test_spheres(at, spheres + i, head.spheres, rays_.bounds_scale()),
+            take(flight, test_spheres(at, spheres + i, head.spheres, rays_.bounds_scale()),
                  slots + head.triangles + i, head.spheres - i);
-        if (head.others != 0) add_open(slots + copied, head.others);
+        if (head.others != 0) add_open(flight, slots + copied, head.others);
     }
 
-    HWY_INLINE void take(const LeafHits& hits, const Slot* slots, std::uint32_t count) {
+    HWY_INLINE void take(RayFlight& flight, const LeafHits& hits, const Slot* slots,
+                         std::uint32_t count) const {
         const std::uint32_t lanes = count < kWideLanes ? (1U << count) - 1 : 0xffffU;
-        const Floats behind(ray_.behind);
-        const RayMask nearer = hits.low <= Floats(best_);
+        const Floats behind(flight.ray.behind);
+        const RayMask nearer = hits.low <= Floats(flight.best);
         const RayMask ahead = hits.low > behind;
         const std::uint32_t sure = (hits.sure & nearer & ahead).bits() & lanes;
         const std::uint32_t open =
             (without(hits.open | hits.sure, hits.sure & ahead) & nearer & (hits.high >= behind))
                 .bits() &
             lanes;
-        if ((sure | open) != 0) keep(hits, slots, sure, open);
+        if ((sure | open) != 0) keep(flight, hits, slots, sure, open);
     }
 
-    HWY_NOINLINE void keep(const LeafHits& hits, const Slot* slots, std::uint32_t sure,
-                           std::uint32_t open) {
+    HWY_NOINLINE void keep(RayFlight& flight, const LeafHits& hits, const Slot* slots,
+                           std::uint32_t sure, std::uint32_t open) const {
         alignas(64) float low[kWideLanes];
         alignas(64) float high[kWideLanes];
         hits.low.store(low);
@@ -131,61 +167,68 @@ class SingleWalk {
         for (std::uint32_t lanes = sure | open; lanes != 0; lanes &= lanes - 1) {
             const int lane = std::countr_zero(lanes);
             const bool is_sure = (sure >> lane & 1) != 0;
-            if (low[lane] > best_) continue;
-            add({low[lane], high[lane], slots[lane], is_sure});
-            if (is_sure) best_ = std::min(best_, high[lane]);
+            if (low[lane] > flight.best) continue;
+            add(flight, {low[lane], high[lane], slots[lane], is_sure});
+            if (is_sure) flight.best = std::min(flight.best, high[lane]);
         }
+        std::uint32_t depth = 1;
+        for (std::uint32_t i = 1; i < flight.depth; ++i) {
+            RayFlight::Level& level = flight.levels[i];
+            level.waiting &= (Floats::load(level.entry) <= Floats(flight.best)).bits();
+            if (level.waiting == 0) continue;
+            if (depth != i) flight.levels[depth] = level;
+            ++depth;
+        }
+        flight.depth = depth;
     }
 
-    HWY_NOINLINE void add_open(const Slot* slots, std::uint32_t count) {
-        for (std::uint32_t i = 0; i < count; ++i) add({-kInfinity, kInfinity, slots[i], false});
+    HWY_NOINLINE void add_open(RayFlight& flight, const Slot* slots, std::uint32_t count) const {
+        for (std::uint32_t i = 0; i < count; ++i)
+            add(flight, {-kInfinity, kInfinity, slots[i], false});
     }
 
-    void add(const RayCandidate& candidate) {
-        if (count_ == kMaxCandidates) {
-            drop_behind_best();
-            if (count_ > kMaxCandidates / 2) decide();
+    void add(RayFlight& flight, const RayCandidate& candidate) const {
+        if (flight.candidate_count == RayFlight::kMaxCandidates) {
+            flight.drop_behind_best();
+            if (flight.candidate_count > RayFlight::kMaxCandidates / 2) decide(flight);
         }
-        candidates_[count_++] = candidate;
+        flight.candidates[flight.candidate_count++] = candidate;
     }
-    void drop_behind_best() {
-        std::size_t kept = 0;
-        for (std::size_t i = 0; i < count_; ++i) {
-            const RayCandidate candidate = candidates_[i];
-            if (candidate.low <= best_) candidates_[kept++] = candidate;
-        }
-        count_ = kept;
-    }
-    HWY_NOINLINE void decide() {
-        const auto exact = rays_.decide(world_, ray_, {candidates_, count_});
-        count_ = 0;
+    HWY_NOINLINE void decide(RayFlight& flight) const {
+        const auto exact = rays_.decide(batch_[flight.index], flight.ray,
+                                        {flight.candidates, flight.candidate_count});
+        flight.candidate_count = 0;
         if (!exact) return;
-        candidates_[count_++] = *exact;
-        best_ = std::min(best_, exact->high);
+        flight.candidates[flight.candidate_count++] = *exact;
+        flight.best = std::min(flight.best, exact->high);
     }
 
-    HWY_INLINE Slot nearest() {
-        if (count_ == 0) return kNoSlot;
-        if (count_ > 1) drop_behind_best();
-        bool alone = candidates_[0].sure;
-        for (std::size_t i = 1; i < count_; ++i)
-            alone &= candidates_[i].slot == candidates_[0].slot;
-        if (!alone) decide();
-        return count_ == 0 ? kNoSlot : candidates_[0].slot;
+    HWY_INLINE void land(RayFlight& flight) const {
+        if (flight.candidate_count > 1) flight.drop_behind_best();
+        if (flight.candidate_count == 0) {
+            found_[flight.index] = kNoSlot;
+            return;
+        }
+        bool alone = flight.candidates[0].sure;
+        for (std::uint32_t i = 1; i < flight.candidate_count; ++i)
+            alone &= flight.candidates[i].slot == flight.candidates[0].slot;
+        if (!alone) decide(flight);
+        found_[flight.index] = flight.candidate_count == 0 ? kNoSlot : flight.candidates[0].slot;
     }
 
     const SingleRays& rays_;
-    const Ray& world_;
-    const LocalRay& ray_;
     const WideOctree& tree_;
-    float best_ = kInfinity;  // the nearest sure hit's upper bound
-    std::size_t count_ = 0;
-    RayCandidate candidates_[kMaxCandidates];
-    std::uint64_t waiting_[WideOctree::kMaxWaiting];
+    std::span<const Ray> batch_;
+    Slot* found_;
+    std::size_t next_ = 0;
+    Queue at_nodes_;
+    Queue at_leaves_;
+    RayFlight flights_[kFlights];
 };
 
-Slot walk_single(const SingleRays& rays, const Ray& world, const LocalRay& ray) {
-    return SingleWalk(rays, world, ray).run();
+void walk_rays(const SingleRays& rays, std::span<const Ray> batch, Slot* found) {
+    const auto flights = std::make_unique<Flights>(rays, batch, found);
+    flights->run();
 }
 
 }  // namespace nuvo::HWY_NAMESPACE
@@ -201,15 +244,17 @@ SingleRays::SingleRays(const FastScene& scene, InstructionSet isa, bool redo_exa
       kernel_(scene.scene(), scene.primitives(), std::nullopt),
       tree_(scene),
       bounds_scale_(redo_exactly ? 1.0F : 0.0F),
-      walk_(NUVO_FOR_ISA(resolved(isa), walk_single)) {}
+      walk_(NUVO_FOR_ISA(resolved(isa), walk_rays)) {}
 
 std::vector<RayAnswer> SingleRays::closest_hits(std::span<const Ray> rays) const {
     std::vector<RayAnswer> answers;
     answers.reserve(rays.size());
-    for (const Ray& ray : rays) {
-        const LocalRay local(ray, scene_.frame(), tree_.reach);
-        answers.push_back(local.valid ? answer(ray, walk_(*this, ray, local))
-                                      : answer_by_force(ray));
+    constexpr std::size_t kBatch = 1024;
+    std::array<Slot, kBatch> found;
+    for (std::size_t first = 0; first < rays.size(); first += kBatch) {
+        const auto batch = rays.subspan(first, std::min(kBatch, rays.size() - first));
+        walk_(*this, batch, found.data());
+        for (std::size_t i = 0; i < batch.size(); ++i) answers.push_back(answer(batch[i], found[i]));
     }
     return answers;
 }
@@ -248,10 +293,17 @@ RayAnswer SingleRays::answer(const Ray& ray, Slot slot) const {
     return answer_for(kernel_.hit_of(kernel_.prepare(ray), scene_.id(slot)));
 }
 
-RayAnswer SingleRays::answer_by_force(const Ray& ray) const {
+Slot SingleRays::by_force(const Ray& ray) const {
     std::optional<Kernel::Hit> best;
-    kernel_.closest(kernel_.prepare(ray), scene_.primitives().all(), best);
-    return answer_for(best);
+    const ExactRay prepared = kernel_.prepare(ray);
+    Slot nearest = kNoSlot;
+    for (Slot slot = 0; slot < scene_.slot_end(); ++slot) {
+        const auto hit = kernel_.hit_of(prepared, scene_.id(slot));
+        if (!hit || (best && !kernel_.precedes(prepared, *hit, *best))) continue;
+        best = hit;
+        nearest = slot;
+    }
+    return nearest;
 }
 
 }  // namespace nuvo

@@ -10,19 +10,12 @@
 #include "fast_scene.h"
 #include "local_ray.h"
 #include "nuvo/render/fast.h"
+#include "ray_flight.h"
 #include "wide_octree.h"
 
 // Rays that have nothing in common, one at a time: 16 voxels or 16 primitives to a step.
 
 namespace nuvo {
-
-/// A primitive that a ray may meet, at a parameter (LocalRay) in [low, high].
-struct RayCandidate {
-    float low;
-    float high;
-    Slot slot;
-    bool sure;  ///< the ray meets it, in front of the origin
-};
 
 /// The closest hits of arbitrary rays. Not for several threads at once.
 class SingleRays {
@@ -40,23 +33,25 @@ class SingleRays {
     std::size_t memory_bytes() const { return tree_.memory_bytes(); }
 
     // For the walks.
+    const FastScene& scene() const { return scene_; }
     const WideOctree& tree() const { return tree_; }
     /// What the bounds of the float stage are multiplied with: 1, or 0 for measuring their price.
     float bounds_scale() const { return bounds_scale_; }
     /// The nearest of the candidates by exact arithmetic, if any is met.
     std::optional<RayCandidate> decide(const Ray& ray, const LocalRay& local,
                                        std::span<const RayCandidate> candidates) const;
+    /// The nearest primitive among all; kNoSlot: none.
+    Slot by_force(const Ray& ray) const;
 
   private:
     RayAnswer answer(const Ray& ray, Slot slot) const;
-    RayAnswer answer_by_force(const Ray& ray) const;
     RayAnswer answer_for(const std::optional<Kernel::Hit>& hit) const;
 
     const FastScene& scene_;
     Kernel kernel_;
     WideOctree tree_;
     float bounds_scale_;
-    Slot (*walk_)(const SingleRays&, const Ray&, const LocalRay&);
+    void (*walk_)(const SingleRays&, std::span<const Ray>, Slot*);
 };
 
 }  // namespace nuvo

@@ -21,6 +21,10 @@ struct alignas(64) WideNode {
     float low[3][kWideLanes];
     float high[3][kWideLanes];
     std::uint32_t child[kWideLanes];  ///< index of a node; with WideOctree::kLeaf: place of a leaf
+    /// The lanes from near to far for rays whose direction's sign bits are 1 x + 2 y + 4 z: number
+    /// i stands in bits 4 (i / 2) to 4 (i / 2) + 3 of word i % 2. What separates two voxels is a
+    /// plane of the octree, so that one order holds for all rays of the same signs.
+    std::uint32_t order[8][2];
 };
 
 /// Copies of a leaf's primitives, side by side, in 32-bit words from its place on: this head, then
@@ -47,7 +51,6 @@ inline constexpr double kLargestCorner = 65535;
 
 struct WideOctree {
     static constexpr std::uint32_t kLeaf = 1U << 31;
-    static constexpr std::size_t kMaxWaiting = kWideLanes * CompactOctree::kMaxDepth;
 
     explicit WideOctree(const FastScene& scene);
 

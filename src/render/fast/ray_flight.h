@@ -1,0 +1,84 @@
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include "fast_scene.h"
+#include "local_ray.h"
+
+// A ray under way. One ray alone waits for its own memory, comparisons and mispredicted branches
+// most of the time; so a thread keeps many in flight and gives each a step in turn, sorted into
+// those at a node and those at a leaf, so that hardly a branch depends on a ray.
+
+namespace nuvo {
+
+/// A primitive that a ray may meet, at a parameter (LocalRay) in [low, high].
+struct RayCandidate {
+    float low;
+    float high;
+    Slot slot;
+    bool sure;  ///< the ray meets it, in front of the origin
+};
+
+struct RayFlight {
+    static constexpr std::size_t kMaxCandidates = 40;
+    static constexpr std::uint32_t kLanded = ~std::uint32_t{0};
+
+    /// What waits of a node, in the order of the ray's direction (WideNode::order).
+    struct alignas(64) Level {
+        float entry[kWideLanes];  ///< where the ray enters the boxes, never negative
+        const std::uint32_t* child;  ///< the node's, by lane
+        const std::uint32_t* order;  ///< the node's for this ray
+        std::uint32_t waiting;       ///< one bit each
+    };
+
+    LocalRay ray;
+    std::size_t index = 0;  ///< among the batch's rays
+    float best = 0;         ///< the nearest sure hit's upper bound
+    std::uint32_t candidate_count = 0;
+    std::uint32_t depth = 0;  ///< levels with something waiting, the lowest included
+    std::uint32_t next = 0;   ///< what comes next (WideNode::child), or kLanded
+    float next_entry = 0;     ///< where the ray enters it
+    /// The first one only holds kLanded.
+    Level levels[CompactOctree::kMaxDepth + 2];
+    RayCandidate candidates[kMaxCandidates];
+
+    /// Sets out for the root.
+    void start(std::size_t ray_index) {
+        index = ray_index;
+        best = std::numeric_limits<float>::infinity();
+        candidate_count = 0;
+        static constexpr std::uint32_t kGround[2] = {kLanded, 0};
+        levels[0].entry[0] = 0;
+        levels[0].child = kGround;
+        levels[0].order = kGround + 1;
+        levels[0].waiting = 1;
+        depth = 1;
+        next = 0;
+        next_entry = 0;
+    }
+
+    /// Takes the nearest of what waits highest into `next`; hardly a branch depends on a ray.
+    void take_next() {
+        Level& level = levels[depth - 1];
+        const auto number = static_cast<unsigned>(std::countr_zero(level.waiting));
+        level.waiting &= level.waiting - 1;
+        depth -= level.waiting == 0 ? 1 : 0;
+        next_entry = level.entry[number];
+        next = level.child[level.order[number & 1] >> (4 * (number / 2)) & 15];
+    }
+
+    void drop_behind_best() {
+        std::uint32_t kept = 0;
+        for (std::uint32_t i = 0; i < candidate_count; ++i) {
+            const RayCandidate candidate = candidates[i];
+            if (candidate.low <= best) candidates[kept++] = candidate;
+        }
+        candidate_count = kept;
+    }
+};
+
+}  // namespace nuvo
