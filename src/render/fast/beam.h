@@ -6,6 +6,8 @@
 #define NUVO_RENDER_FAST_BEAM_H_
 #endif
 
+#include <hwy/cache_control.h>
+
 #include <bit>
 
 #include "beam_box.h"
@@ -132,6 +134,7 @@ HWY_INLINE bool walk_beam(const CompactOctree& octree, const BeamSlabs<kStraddle
         if (node.is_leaf()) {
             if (leaf(octree.items.data() + node.first_item(), node.item_count(), at.t)) return true;
         } else {
+            hwy::Prefetch(nodes + node.first_child());
             float entry[8];
             ahead = slabs.meets(at.low, node.cut, at.high, entry) & node.mask();
             ahead = flipped(ahead, slabs.flip());

@@ -31,22 +31,15 @@ class PrimaryTracer {
 
     void run() {
         job_.mailbox.start();
-        const Slot triangle_end = job_.scene.triangle_end();
         walk_beam(
             job_.scene.octree(), lanes_.beam,
             [&](float entry) HWY_ATTR { return entry * tile_near_ > 1 + kEntryRounding; },
             [&](const std::uint32_t* items, std::uint32_t count, float) HWY_ATTR {
-                for (std::uint32_t i = 0; i < count; ++i) prefetch(items[i]);
-                for (std::uint32_t i = 0; i < count; ++i) {
-                    const Slot slot = items[i];
-                    if (job_.mailbox.seen(slot)) continue;
-                    if (slot < triangle_end)
-                        test_triangle(slot);
-                    else
-                        test_sphere(slot);
-                }
+                for (std::uint32_t i = 0; i < count; ++i)
+                    if (!job_.mailbox.seen(items[i])) enqueue(items[i]);
                 return false;
             });
+        while (tested_ != queued_) test(queue_[tested_++ % kQueue]);
         finish();
     }
 
@@ -89,12 +82,22 @@ class PrimaryTracer {
             tile_.hit[b] = static_cast<std::uint16_t>((Ints::load(slots(b)) != none_).bits());
     }
 
-    HWY_INLINE void prefetch(Slot slot) const {
+    // An item waits until its record has come from memory.
+    HWY_INLINE void enqueue(Slot slot) {
         const Slot triangle_end = job_.scene.triangle_end();
         if (slot < triangle_end)
             hwy::Prefetch(job_.tables.triangles.data() + slot);
         else
             hwy::Prefetch(job_.tables.spheres.data() + (slot - triangle_end));
+        queue_[queued_++ % kQueue] = slot;
+        if (queued_ - tested_ == kQueue) test(queue_[tested_++ % kQueue]);
+    }
+
+    HWY_INLINE void test(Slot slot) {
+        if (slot < job_.scene.triangle_end())
+            test_triangle(slot);
+        else
+            test_sphere(slot);
     }
 
     HWY_INLINE void test_triangle(Slot slot) {
@@ -218,6 +221,10 @@ class PrimaryTracer {
 
     PrimaryJob& job_;
     Tile& tile_;
+    static constexpr std::uint32_t kQueue = 16;
+    Slot queue_[kQueue];
+    std::uint32_t queued_ = 0;
+    std::uint32_t tested_ = 0;
     TileRays lanes_;
     TileDirections directions_;                  // of scenes with spheres
     alignas(64) float block_near_[kTileBlocks];  // the least near_low of a block
