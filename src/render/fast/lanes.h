@@ -101,6 +101,17 @@ struct Lanes : LaneShape<T, N> {
             v.part[i] = hn::LoadU(Tag(), from + i * Shape::kPart);
         return v;
     }
+    /// Four numbers, again and again.
+    static HWY_INLINE Lanes load_4_again(const T* from) {
+        Lanes v;
+        for (std::size_t i = 0; i < Shape::kParts; ++i) {
+            if constexpr (Shape::kPart >= 4)
+                v.part[i] = hn::LoadDup128(Tag(), from);
+            else
+                v.part[i] = hn::LoadU(Tag(), from + i * Shape::kPart % 4);
+        }
+        return v;
+    }
     HWY_INLINE void store(T* to) const {
         for (std::size_t i = 0; i < Shape::kParts; ++i)
             hn::StoreU(part[i], Tag(), to + i * Shape::kPart);
