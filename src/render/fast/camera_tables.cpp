@@ -113,6 +113,7 @@ CameraSphere make_sphere(const Point3& eye, double scale, const Point3& center, 
                       ? rounded_up(1 / (gap * (1 - gamma(32)) - gamma(16) * std::sqrt(ff)))
                       : kInfinity;
     if (!(out.nearest > 0)) out.nearest = kInfinity;
+    out.distance = rounded_up(std::sqrt(ff));
     out.cross_error = rounded_up(gamma(32) * max_norm(from) * direction);
     out.exactly = !(std::fabs(power) > 4 * error && std::isfinite(out.inverse_power) &&
                     std::isnormal(out.radius) && std::isfinite(out.cross_error));

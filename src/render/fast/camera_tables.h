@@ -33,6 +33,7 @@ struct alignas(64) CameraSphere {
     float inverse_power;  ///< 1 / (f.f - r^2); its sign tells which root is hit
     float power_error;    ///< relative, of inverse_power
     float nearest;        ///< bounds 1 / (least distance from the camera) from above; inf: inside
+    float distance;       ///< |f|, rounded up
     float cross_error;    ///< bounds the error of f x d in double on each axis, over the picture
     bool exactly;         ///< floats cannot tell: an ellipsoid, or the camera is at the surface
 };
