@@ -1,7 +1,6 @@
 #pragma once
 
-#include <vector>
-
+#include "big_vector.h"
 #include "fast_scene.h"
 #include "tile.h"
 
@@ -41,14 +40,14 @@ static_assert(sizeof(CameraSphere) == 64);
 
 /// Made anew for each picture.
 struct CameraTables {
-    CameraTables(const FastScene& scene, const CameraRays& camera);
+    CameraTables(const FastScene& scene, const CameraRays& camera, InstructionSet isa);
 
     std::size_t memory_bytes() const {
         return triangles.size() * sizeof(CameraTriangle) + spheres.size() * sizeof(CameraSphere);
     }
 
-    std::vector<CameraTriangle> triangles;  ///< by slot
-    std::vector<CameraSphere> spheres;      ///< by slot - triangle_end()
+    BigVector<CameraTriangle> triangles;  ///< by slot
+    BigVector<CameraSphere> spheres;      ///< by slot - triangle_end()
 };
 
 }  // namespace nuvo
