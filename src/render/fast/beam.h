@@ -31,7 +31,8 @@ namespace nuvo::HWY_NAMESPACE {
 template <bool kStraddles>
 class BeamSlabs {
   public:
-    explicit HWY_INLINE BeamSlabs(const BeamBox& beam) : t_end_(beam.t_end * (1 + kWiden)) {
+    explicit HWY_INLINE BeamSlabs(const BeamBox& beam)
+        : t_end_(beam.t_end * (1 + kWiden)), flip_(beam.far_first ? 7 : 0) {
         for (int axis = 0; axis < 3; ++axis) {
             const float low = beam.direction_low[axis];
             const float high = beam.direction_high[axis];
@@ -47,11 +48,11 @@ class BeamSlabs {
                 exit_origin_[axis] = beam.origin_high[axis];
                 set_exit(axis, false, 1 / high);
             }
-            if (low + high < 0) flip_ |= 1U << axis;
+            if (low + high < 0) flip_ ^= 1U << axis;
         }
     }
 
-    /// Octant o ^ flip() for o = 0..7 is an order from near to far.
+    /// Octant o ^ flip() for o = 0..7 is an order from near to far (or from far to near).
     unsigned flip() const { return flip_; }
 
     /// The octants of the voxel that the beam may meet; `entry` takes lower bounds of t.
@@ -101,7 +102,7 @@ class BeamSlabs {
     float exit_scale_[3];
     float exit_add_[3];
     float other_entry_scale_[3];
-    unsigned flip_ = 0;
+    unsigned flip_;
 };
 
 /// Bit i of the result is bit i ^ flip of the 8 bits.
@@ -112,8 +113,9 @@ HWY_INLINE std::uint32_t flipped(std::uint32_t bits, unsigned flip) {
     return bits;
 }
 
-/// Calls `leaf(items, count, entry)` for each leaf that the beam may meet, from near to far, until
-/// it returns true; then returns true. `skip(entry)`: whether nothing from t = entry on matters.
+/// Calls `leaf(items, count, entry)` for each leaf that the beam may meet, in the beam's order,
+/// until it returns true; then returns true. `skip(entry)`: whether nothing from t = entry on
+/// matters.
 template <bool kStraddles, typename Skip, typename Leaf>
 HWY_INLINE bool walk_beam(const CompactOctree& octree, const BeamSlabs<kStraddles>& slabs,
                           Skip&& skip, Leaf&& leaf) {

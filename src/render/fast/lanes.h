@@ -121,6 +121,13 @@ struct Lanes : LaneShape<T, N> {
         for (std::size_t i = 0; i < Shape::kParts; ++i)
             hn::BlendedStore(part[i], mask.part[i], Tag(), to + i * Shape::kPart);
     }
+    /// The lanes of `mask` side by side; returns their number. Up to N lanes are written.
+    HWY_INLINE std::size_t compress_store(T* to, const Mask& mask) const {
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < Shape::kParts; ++i)
+            count += hn::CompressStore(part[i], mask.part[i], Tag(), to + count);
+        return count;
+    }
     /// base[index[lane]]; indices of lanes that are not wanted must be valid, too.
     static HWY_INLINE Lanes gather(const T* base,
                                    const Lanes<std::int32_t, N>& index) requires(sizeof(T) == 4) {
