@@ -5,7 +5,7 @@ nuvo_root=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)
 
 nuvo_packages=(cmake ninja-build g++ libboost-dev libboost-chrono-dev
     libboost-program-options-dev libnlopt-cxx-dev libgtest-dev nlohmann-json3-dev
-    zlib1g-dev libgeos-dev)
+    zlib1g-dev libgeos-dev libhwy-dev)
 
 # The packages of "$@" that are not installed, one a line.
 nuvo_missing_packages() {

@@ -12,8 +12,21 @@
 
 namespace nuvo {
 
-/// Every decision as exact arithmetic on the scene's doubles makes it (docs/numerics.md).
-class ExactKernel {
+/// Holds every triangle of the scene: one bound for all edge functions of a ray.
+inline Bounds3 triangle_bounds(const Scene& scene, const Primitives& primitives) {
+    Bounds3 all;
+    for (std::size_t i = 0; i < primitives.item_count(); ++i) {
+        const PrimitiveSource& first = primitives.sources[primitives.item_first[i]];
+        if (std::holds_alternative<TriangleMesh>(scene.objects[first.object].shape))
+            all = all.extended(primitives.item_boxes[i]);
+    }
+    return all;
+}
+
+/// Every decision as exact arithmetic on the scene's doubles makes it (docs/numerics.md). `Store`
+/// finds primitives by their id (primitive_store.h).
+template <typename Store>
+class ExactKernelOf {
   public:
     using Scalar = double;
     using PreparedRay = ExactRay;
@@ -37,8 +50,12 @@ class ExactKernel {
     };
     static constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-    ExactKernel(const Scene& scene, const Primitives& primitives, std::optional<double> bias)
-        : store_(scene, primitives), triangles_(triangle_bounds(scene, primitives)), bias_(bias) {}
+    ExactKernelOf(const Scene& scene, const Primitives& primitives, std::optional<double> bias)
+        : ExactKernelOf(scene, primitives, triangle_bounds(scene, primitives), bias) {}
+    /// `triangles` is what triangle_bounds() found.
+    ExactKernelOf(const Scene& scene, const Primitives& primitives, const Bounds3& triangles,
+                  std::optional<double> bias)
+        : store_(scene, primitives), triangles_(triangles), bias_(bias) {}
 
     const PrimitiveSource& source(PrimitiveId id) const { return store_.source(id); }
     const StageCounts& stage_counts() const { return counts_; }
@@ -47,14 +64,29 @@ class ExactKernel {
     Ray walk_ray(const ExactRay& ray) const { return {ray.origin(), ray.direction()}; }
     Ray nudged_ray(const ExactRay& ray) const { return walk_ray(ray); }
 
+    /// The nearest hit on one primitive.
+    std::optional<Hit> hit_of(const ExactRay& ray, PrimitiveId id) const {
+        return store_.visit(id, [&](const auto& primitive) { return hit_on(ray, primitive, id); });
+    }
     /// Replaces `best` by the nearest hit on the primitives of `range` if that is nearer, or as
     /// near and earlier in the document.
     void closest(const ExactRay& ray, PrimitiveRange range, std::optional<Hit>& best) const {
         for (PrimitiveId id = range.first; id < range.last; ++id) {
-            const std::optional<Hit> hit =
-                store_.visit(id, [&](const auto& primitive) { return hit_on(ray, primitive, id); });
+            const std::optional<Hit> hit = hit_of(ray, id);
             if (hit && (!best || precedes(ray, *hit, *best))) best = hit;
         }
+    }
+    /// Whether hit `a` comes before hit `b`: of equal t the lower id.
+    bool precedes(const ExactRay& ray, const Hit& a, const Hit& b) const {
+        if (a.root.high < b.root.low) return true;
+        if (b.root.high < a.root.low) return false;
+        if (a.primitive == b.primitive) return false;  // met again in another leaf
+        const int order = store_.visit(a.primitive, [&](const auto& first) {
+            return store_.visit(b.primitive, [&](const auto& second) {
+                return compare_roots(ray, {&first, a.which}, {&second, b.which}, counts_);
+            });
+        });
+        return order < 0 || (order == 0 && a.primitive < b.primitive);
     }
     double t(const Hit& hit) const { return hit.root.t; }
     double upper_t(const Hit& hit) const { return hit.root.high; }
@@ -90,25 +122,13 @@ class ExactKernel {
         double nearest = kInfinity;
         for (PrimitiveId id = range.first; id < range.last; ++id) {
             if (!blocks_before(shadow, kInfinity, id)) continue;
-            const std::optional<Hit> hit = store_.visit(
-                id, [&](const auto& primitive) { return hit_on(shadow.ray, primitive, id); });
+            const std::optional<Hit> hit = hit_of(shadow.ray, id);
             if (hit) nearest = std::fmin(nearest, hit->root.t);
         }
         return nearest;
     }
 
   private:
-    // Holds every triangle: one bound for all edge functions of a ray.
-    static Bounds3 triangle_bounds(const Scene& scene, const Primitives& primitives) {
-        Bounds3 all;
-        for (std::size_t i = 0; i < primitives.item_count(); ++i) {
-            const PrimitiveSource& first = primitives.sources[primitives.item_first[i]];
-            if (std::holds_alternative<TriangleMesh>(scene.objects[first.object].shape))
-                all = all.extended(primitives.item_boxes[i]);
-        }
-        return all;
-    }
-
     std::optional<Hit> hit_on(const ExactRay& ray, const Triangle& triangle, PrimitiveId id) const {
         const std::optional<Root> root = hit(ray, triangle, counts_);
         if (!root) return std::nullopt;
@@ -119,19 +139,6 @@ class ExactKernel {
         const std::optional<SphereHit> found = hit(ray, quadric, counts_);
         if (!found) return std::nullopt;
         return Hit{id, found->root, found->which};
-    }
-
-    bool precedes(const ExactRay& ray, const Hit& a, const Hit& b) const {
-        if (a.root.high < b.root.low) return true;
-        if (b.root.high < a.root.low) return false;
-        if (a.primitive == b.primitive) return false;  // met again in another leaf
-        const int order = compare_roots(ray, hit_primitive(a), hit_primitive(b), counts_);
-        return order < 0 || (order == 0 && a.primitive < b.primitive);
-    }
-    HitPrimitive hit_primitive(const Hit& hit) const {
-        return store_.visit(hit.primitive, [&](const auto& primitive) {
-            return HitPrimitive{&primitive, hit.which};
-        });
     }
 
     bool blocks_before(const Shadow& shadow, double end, PrimitiveId id) const {
@@ -145,10 +152,13 @@ class ExactKernel {
         });
     }
 
-    PrimitiveStore<std::vector<Triangle>, Sphere, Ellipsoid> store_;
+    Store store_;
     Bounds3 triangles_;
     std::optional<double> bias_;
     mutable StageCounts counts_;
 };
+
+/// The serial tracer's.
+using ExactKernel = ExactKernelOf<PrimitiveStore<std::vector<Triangle>, Sphere, Ellipsoid>>;
 
 }  // namespace nuvo

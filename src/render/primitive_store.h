@@ -8,6 +8,32 @@
 
 namespace nuvo {
 
+/// The scene itself as a store: nothing is copied, a triangle is put together when it is asked for.
+class SceneStore {
+  public:
+    SceneStore(const Scene& scene, const Primitives& primitives)
+        : scene_(scene), sources_(primitives.sources) {}
+
+    const PrimitiveSource& source(PrimitiveId id) const { return sources_[id]; }
+
+    /// Calls `use` with the triangle, sphere or ellipsoid of that id.
+    template <typename Use>
+    auto visit(PrimitiveId id, Use&& use) const {
+        const PrimitiveSource& source = sources_[id];
+        const Shape& shape = scene_.objects[source.object].shape;
+        if (const auto* mesh = std::get_if<TriangleMesh>(&shape)) {
+            const Triangle triangle = mesh->triangle(source.triangle);
+            return use(triangle);
+        }
+        if (const auto* sphere = std::get_if<Sphere>(&shape)) return use(*sphere);
+        return use(std::get<Ellipsoid>(shape));
+    }
+
+  private:
+    const Scene& scene_;
+    const std::vector<PrimitiveSource>& sources_;
+};
+
 /// The primitives' coordinates side by side, one array a kind, found by PrimitiveId. A kind that
 /// the scene lacks costs nothing. TriangleList takes Triangles by push_back; the other two types
 /// are made from Sphere and Ellipsoid.

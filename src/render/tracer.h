@@ -2,7 +2,7 @@
 
 #include "nuvo/render/render.h"
 #include "nuvo/render/shading.h"
-#include "surface.h"
+#include "surface_color.h"
 
 namespace nuvo {
 
@@ -39,40 +39,19 @@ class Tracer {
         const auto hit = search_.closest(prepared);
         if (!hit) return scene_.background.color(ray.direction);
         observer.hit(hit->primitive);
-        const std::uint32_t index = kernel_.source(hit->primitive).object;
-        const Object& object = scene_.objects[index];
-        const Material& own = scene_.materials[object.material];
-        const auto* mesh = std::get_if<TriangleMesh>(&object.shape);
-        const bool colored = mesh != nullptr && !mesh->colors.empty();
-        if (!own.lit && !colored) return own.emissive_color;
-        const auto surface = kernel_.surface(prepared, *hit, object);
-        if (!colored) return lit(index, own, surface, ray, observer);
-        const std::uint32_t triangle = kernel_.source(hit->primitive).triangle;
-        const Color vertex_color = mesh_color(*mesh, triangle, surface.uv);
-        return lit(index, with_color(own, vertex_color), surface, ray, observer);
+        return surface_color(
+            scene_, kernel_, prepared, *hit, ray, [&](const auto& surface, std::size_t light) {
+                if (scene_.lights[light].casts_shadow && blocked(surface, scene_.lights[light]))
+                    return false;
+                observer.lit(light);
+                return true;
+            });
     }
 
     std::uint64_t primary_rays() const { return primary_rays_; }
     std::uint64_t shadow_rays() const { return shadow_rays_; }
 
   private:
-    // The light that the material emits and reflects. [eq. 37]
-    template <typename Surface, typename Observer>
-    Color lit(std::uint32_t index, const Material& material, const Surface& surface, const Ray& ray,
-              Observer& observer) {
-        Color sum = material.emissive_color;
-        if (!material.lit) return sum;
-        for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
-            const Light& light = scene_.lights[i];
-            if (!light.scope.includes(index)) continue;
-            const std::optional<LightSample> sample = sample_light(light, surface.point);
-            if (!sample || (light.casts_shadow && blocked(surface, light))) continue;
-            observer.lit(i);
-            sum += light_contribution(light, *sample, material, surface.normal, -ray.direction);
-        }
-        return sum;
-    }
-
     template <typename Surface>
     bool blocked(const Surface& surface, const Light& light) {
         ++shadow_rays_;

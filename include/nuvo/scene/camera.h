@@ -33,6 +33,10 @@ class RayGenerator {
     Ray ray(int x, int y) const { return ray_at(x + 0.5, y + 0.5); }
     /// The ray through any point of the picture, in pixels from its top left corner.
     Ray ray_at(double x, double y) const;
+    /// From a pixel's direction to its right and lower neighbour's, both before they get unit
+    /// length, where the view's own direction has length 1.
+    Vector3 step_right() const { return camera_.right * (2 * half_width_ / width_); }
+    Vector3 step_down() const { return camera_.up * (-2 * half_height_ / height_); }
 
   private:
     Camera camera_;

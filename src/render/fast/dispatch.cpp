@@ -1,0 +1,29 @@
+#include "dispatch.h"
+
+#include <algorithm>
+#include <hwy/targets.h>
+#include <stdexcept>
+
+namespace nuvo {
+
+std::vector<InstructionSet> supported_instruction_sets() {
+    std::vector<InstructionSet> sets;
+#if HWY_ARCH_X86
+    const auto has = [](auto target) { return (hwy::SupportedTargets() & target) != 0; };
+    if (has(HWY_AVX3)) sets.push_back(InstructionSet::kAvx512);
+    if (has(HWY_AVX2)) sets.push_back(InstructionSet::kAvx2);
+    if (has(HWY_SSE4)) sets.push_back(InstructionSet::kSse4);
+#endif
+    sets.push_back(InstructionSet::kSse2);
+    return sets;
+}
+
+InstructionSet resolved(InstructionSet isa) {
+    const std::vector<InstructionSet> sets = supported_instruction_sets();
+    if (isa == InstructionSet::kBest) return sets.front();
+    if (std::find(sets.begin(), sets.end(), isa) == sets.end())
+        throw std::invalid_argument("this machine lacks the instruction set");
+    return isa;
+}
+
+}  // namespace nuvo

@@ -1,0 +1,233 @@
+// No #pragma once: compiled once for each instruction set (see hwy/foreach_target.h).
+#if defined(NUVO_RENDER_FAST_LANES_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef NUVO_RENDER_FAST_LANES_H_
+#undef NUVO_RENDER_FAST_LANES_H_
+#else
+#define NUVO_RENDER_FAST_LANES_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <cstddef>
+#include <cstdint>
+
+// A fixed number of numbers as one value, in as many registers as the instruction set needs: the
+// kernels are written once for 16 rays or 8 octants, whatever the width of a register.
+
+HWY_BEFORE_NAMESPACE();
+namespace nuvo::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+template <typename T, std::size_t N>
+struct LaneShape {
+    static constexpr std::size_t kPart = HWY_MIN(N, HWY_LANES(T));  // lanes of a register
+    static constexpr std::size_t kParts = N / kPart;
+    using Tag = hn::FixedTag<T, kPart>;
+    using Vector = hn::Vec<Tag>;
+    using Mask = hn::Mask<Tag>;
+};
+
+/// N truth values, in the form in which comparisons of T give them.
+template <typename T, std::size_t N>
+struct LaneMask : LaneShape<T, N> {
+    using Shape = LaneShape<T, N>;
+    using Tag = typename Shape::Tag;
+    typename Shape::Mask part[Shape::kParts];
+
+    /// Bit i is lane i.
+    HWY_INLINE std::uint32_t bits() const {
+        std::uint32_t all = 0;
+        for (std::size_t i = 0; i < Shape::kParts; ++i) {
+            std::uint64_t word = 0;  // its first bytes; the targets are little-endian
+            hn::StoreMaskBits(Tag(), part[i], reinterpret_cast<std::uint8_t*>(&word));
+            all |= (static_cast<std::uint32_t>(word) &
+                    static_cast<std::uint32_t>((1U << Shape::kPart) - 1))
+                   << (i * Shape::kPart);
+        }
+        return all;
+    }
+    static HWY_INLINE LaneMask from_bits(std::uint32_t bits) {
+        LaneMask m;
+        for (std::size_t i = 0; i < Shape::kParts; ++i) {
+            const std::uint64_t word = bits >> (i * Shape::kPart);
+            m.part[i] = hn::LoadMaskBits(Tag(), reinterpret_cast<const std::uint8_t*>(&word));
+        }
+        return m;
+    }
+    HWY_INLINE bool any() const {
+        bool found = false;
+        for (std::size_t i = 0; i < Shape::kParts; ++i) found |= !hn::AllFalse(Tag(), part[i]);
+        return found;
+    }
+
+    friend HWY_INLINE LaneMask operator&(LaneMask a, const LaneMask& b) {
+        for (std::size_t i = 0; i < Shape::kParts; ++i) a.part[i] = hn::And(a.part[i], b.part[i]);
+        return a;
+    }
+    friend HWY_INLINE LaneMask operator|(LaneMask a, const LaneMask& b) {
+        for (std::size_t i = 0; i < Shape::kParts; ++i) a.part[i] = hn::Or(a.part[i], b.part[i]);
+        return a;
+    }
+    friend HWY_INLINE LaneMask operator~(LaneMask a) {
+        for (std::size_t i = 0; i < Shape::kParts; ++i) a.part[i] = hn::Not(a.part[i]);
+        return a;
+    }
+    /// a and not b.
+    friend HWY_INLINE LaneMask without(LaneMask a, const LaneMask& b) {
+        for (std::size_t i = 0; i < Shape::kParts; ++i)
+            a.part[i] = hn::AndNot(b.part[i], a.part[i]);
+        return a;
+    }
+};
+
+/// N numbers.
+template <typename T, std::size_t N>
+struct Lanes : LaneShape<T, N> {
+    using Shape = LaneShape<T, N>;
+    using Tag = typename Shape::Tag;
+    using Mask = LaneMask<T, N>;
+    typename Shape::Vector part[Shape::kParts];
+
+    HWY_INLINE Lanes() = default;
+    /// The same number in each lane.
+    HWY_INLINE Lanes(T value) {  // NOLINT(google-explicit-constructor): reads like arithmetic
+        for (std::size_t i = 0; i < Shape::kParts; ++i) part[i] = hn::Set(Tag(), value);
+    }
+    /// `from` need not be aligned.
+    static HWY_INLINE Lanes load(const T* from) {
+        Lanes v;
+        for (std::size_t i = 0; i < Shape::kParts; ++i)
+            v.part[i] = hn::LoadU(Tag(), from + i * Shape::kPart);
+        return v;
+    }
+    HWY_INLINE void store(T* to) const {
+        for (std::size_t i = 0; i < Shape::kParts; ++i)
+            hn::StoreU(part[i], Tag(), to + i * Shape::kPart);
+    }
+    /// Only the lanes of `mask` are written.
+    HWY_INLINE void store(T* to, const Mask& mask) const {
+        for (std::size_t i = 0; i < Shape::kParts; ++i)
+            hn::BlendedStore(part[i], mask.part[i], Tag(), to + i * Shape::kPart);
+    }
+    /// base[index[lane]]; indices of lanes that are not wanted must be valid, too.
+    static HWY_INLINE Lanes gather(const T* base,
+                                   const Lanes<std::int32_t, N>& index) requires(sizeof(T) == 4) {
+        Lanes v;
+        for (std::size_t i = 0; i < Shape::kParts; ++i)
+            v.part[i] = hn::GatherIndex(Tag(), base, index.part[i]);
+        return v;
+    }
+
+#define NUVO_LANES_BINARY(op, function)                            \
+    friend HWY_INLINE Lanes operator op(Lanes a, const Lanes& b) { \
+        for (std::size_t i = 0; i < Shape::kParts; ++i)            \
+            a.part[i] = hn::function(a.part[i], b.part[i]);        \
+        return a;                                                  \
+    }
+    NUVO_LANES_BINARY(+, Add)
+    NUVO_LANES_BINARY(-, Sub)
+    NUVO_LANES_BINARY(*, Mul)
+    NUVO_LANES_BINARY(/, Div)
+#undef NUVO_LANES_BINARY
+#define NUVO_LANES_COMPARE(op, function)                                 \
+    friend HWY_INLINE Mask operator op(const Lanes& a, const Lanes& b) { \
+        Mask m;                                                          \
+        for (std::size_t i = 0; i < Shape::kParts; ++i)                  \
+            m.part[i] = hn::function(a.part[i], b.part[i]);              \
+        return m;                                                        \
+    }
+    NUVO_LANES_COMPARE(<, Lt)
+    NUVO_LANES_COMPARE(<=, Le)
+    NUVO_LANES_COMPARE(>, Gt)
+    NUVO_LANES_COMPARE(>=, Ge)
+    NUVO_LANES_COMPARE(==, Eq)
+    NUVO_LANES_COMPARE(!=, Ne)
+#undef NUVO_LANES_COMPARE
+    friend HWY_INLINE Lanes operator-(Lanes a) {
+        for (std::size_t i = 0; i < Shape::kParts; ++i) a.part[i] = hn::Neg(a.part[i]);
+        return a;
+    }
+    friend HWY_INLINE Lanes min(Lanes a, const Lanes& b) {
+        for (std::size_t i = 0; i < Shape::kParts; ++i) a.part[i] = hn::Min(a.part[i], b.part[i]);
+        return a;
+    }
+    friend HWY_INLINE Lanes max(Lanes a, const Lanes& b) {
+        for (std::size_t i = 0; i < Shape::kParts; ++i) a.part[i] = hn::Max(a.part[i], b.part[i]);
+        return a;
+    }
+    friend HWY_INLINE Lanes abs(Lanes a) {
+        for (std::size_t i = 0; i < Shape::kParts; ++i) a.part[i] = hn::Abs(a.part[i]);
+        return a;
+    }
+    friend HWY_INLINE Lanes sqrt(Lanes a) {
+        for (std::size_t i = 0; i < Shape::kParts; ++i) a.part[i] = hn::Sqrt(a.part[i]);
+        return a;
+    }
+    friend HWY_INLINE Lanes floor(Lanes a) {
+        for (std::size_t i = 0; i < Shape::kParts; ++i) a.part[i] = hn::Floor(a.part[i]);
+        return a;
+    }
+    /// a * b + c, with one rounding or two.
+    friend HWY_INLINE Lanes mul_add(Lanes a, const Lanes& b, const Lanes& c) {
+        for (std::size_t i = 0; i < Shape::kParts; ++i)
+            a.part[i] = hn::MulAdd(a.part[i], b.part[i], c.part[i]);
+        return a;
+    }
+    /// c - a * b, with one rounding or two.
+    friend HWY_INLINE Lanes neg_mul_add(Lanes a, const Lanes& b, const Lanes& c) {
+        for (std::size_t i = 0; i < Shape::kParts; ++i)
+            a.part[i] = hn::NegMulAdd(a.part[i], b.part[i], c.part[i]);
+        return a;
+    }
+    /// a where the mask is set, else b.
+    friend HWY_INLINE Lanes select(const Mask& mask, Lanes a, const Lanes& b) {
+        for (std::size_t i = 0; i < Shape::kParts; ++i)
+            a.part[i] = hn::IfThenElse(mask.part[i], a.part[i], b.part[i]);
+        return a;
+    }
+};
+
+/// A mask of the lanes of one type for those of another.
+template <typename To, typename From, std::size_t N>
+HWY_INLINE LaneMask<To, N> mask_for(const LaneMask<From, N>& mask) requires(sizeof(To) ==
+                                                                            sizeof(From)) {
+    LaneMask<To, N> out;
+    for (std::size_t i = 0; i < LaneShape<To, N>::kParts; ++i)
+        out.part[i] = hn::RebindMask(typename LaneShape<To, N>::Tag(), mask.part[i]);
+    return out;
+}
+
+using Floats = Lanes<float, 16>;  ///< one number for each of 16 rays
+using RayMask = LaneMask<float, 16>;
+using Ints = Lanes<std::int32_t, 16>;
+using OctantFloats = Lanes<float, 8>;  ///< one number for each of 8 octants
+using Doubles4 = Lanes<double, 4>;
+
+/// At least 1 / sqrt(v), and at most 2^-9 more of it; v >= 0.
+HWY_INLINE Floats above_inverse_sqrt(Floats v) {
+#if HWY_TARGET == HWY_SCALAR || HWY_TARGET == HWY_EMU128
+    return Floats(1 + 0x1p-10F) / sqrt(v);
+#else
+    for (std::size_t i = 0; i < Floats::Shape::kParts; ++i)
+        v.part[i] = hn::ApproximateReciprocalSqrt(v.part[i]);
+    return v * Floats(1 + 0x1p-10F);  // the least accurate set is within 1.5 * 2^-12
+#endif
+}
+
+/// The lowest and the highest lane.
+HWY_INLINE float lowest(const Floats& v) {
+    auto all = v.part[0];
+    for (std::size_t i = 1; i < Floats::Shape::kParts; ++i) all = hn::Min(all, v.part[i]);
+    return hn::GetLane(hn::MinOfLanes(Floats::Tag(), all));
+}
+HWY_INLINE float highest(const Floats& v) {
+    auto all = v.part[0];
+    for (std::size_t i = 1; i < Floats::Shape::kParts; ++i) all = hn::Max(all, v.part[i]);
+    return hn::GetLane(hn::MaxOfLanes(Floats::Tag(), all));
+}
+
+}  // namespace nuvo::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // NUVO_RENDER_FAST_LANES_H_
