@@ -1,5 +1,3 @@
-#include <chrono>
-
 #include "nuvo/render/fast.h"
 
 // Stands in for the fast tracer where it is not built yet: the exact renderer behind its face.
@@ -12,8 +10,6 @@ struct FastTracer::State {
     Profile profile;
     Octree octree;
 };
-
-std::vector<InstructionSet> supported_instruction_sets() { return {InstructionSet::kSse2}; }
 
 FastTracer::FastTracer(const Scene& scene, const Primitives& primitives,
                        const FastOptions& options) {
