@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+
+#include "nuvo/math/bounds.h"
+#include "nuvo/octree/compact.h"
+
+namespace nuvo {
+
+/// A voxel and the planes that cut it. Where a plane is the voxel's upper face the axis is not cut:
+/// the upper octants of that axis stay empty, and the lower ones are as wide as the voxel.
+struct CutVoxel {
+    Bounds3T<float> bounds;
+    Vec3<float> cut;
+};
+
+/// Clears in masks[i] the octants (bits as in CompactNode) in whose closed box item items[i] surely
+/// has no point. Called for many items at once, so that it can work in vectors, and by several
+/// threads at a time.
+using OctantTest = std::function<void(const CutVoxel& voxel, std::span<const std::uint32_t> items,
+                                      std::span<std::uint8_t> masks)>;
+
+/// Where a voxel is cut: through its centre, or on each axis where the surface area heuristic of
+/// the two sides is least.
+enum class CutRule : std::uint8_t { kSpatial, kSweep };
+
+/// Prices in units of one primitive test, measured on whole frames.
+struct CompactCosts {
+    double interior = 6;  ///< a step through a node's children
+    double leaf = 2;      ///< reaching a leaf
+};
+
+struct CompactBuildOptions {
+    CutRule rule = CutRule::kSpatial;
+    CompactCosts costs;
+    OctantTest overlaps;  ///< empty: the boxes decide
+    int threads = 1;      ///< >= 1; the tree does not depend on it
+    /// What the tree may hold for each item; a voxel's share is in proportion to its items.
+    double max_references_per_item = 8;
+};
+
+/// The octree of the items with these boxes (finite, none empty); an item is its index. Each leaf
+/// lists every item whose box touches the closed voxel and which `overlaps` does not exclude.
+/// O(n log n) but for items that cuts do not part.
+CompactOctree build_compact_octree(std::span<const Bounds3T<float>> boxes,
+                                   const CompactBuildOptions& options);
+
+}  // namespace nuvo

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "nuvo/octree/compact_build.h"
+
+namespace nuvo {
+
+using ItemSpan = std::span<const std::uint32_t>;
+using BoxSpan = std::span<const Bounds3T<float>>;
+
+/// The box of one octant of a cut voxel.
+inline Bounds3T<float> octant_box(const CutVoxel& voxel, unsigned octant) {
+    Bounds3T<float> box = voxel.bounds;
+    for (int axis = 0; axis < 3; ++axis)
+        ((octant >> axis & 1U) != 0 ? box.min : box.max)[axis] = voxel.cut[axis];
+    return box;
+}
+
+/// Half the surface of a box; the builder needs ratios only.
+inline double half_area(const Bounds3T<float>& box) {
+    const Vec3<double> w = Vec3<double>(box.max) - Vec3<double>(box.min);
+    return w.x * w.y + w.y * w.z + w.z * w.x;
+}
+
+/// The planes for these items; none where no axis can be cut.
+std::optional<CutVoxel> choose_cut(CutRule rule, const Bounds3T<float>& voxel, ItemSpan items,
+                                   BoxSpan boxes);
+
+}  // namespace nuvo

@@ -1,0 +1,121 @@
+#include "compact_split.h"
+
+#include <algorithm>
+
+// One cut: the octants that an item's box touches follow from six comparisons with the planes; only
+// items in more than one octant are tested any further, all of a voxel together.
+
+namespace nuvo {
+namespace {
+
+// Octants in the lower and in the upper half of each axis.
+constexpr std::uint8_t kLower[3] = {0x55, 0x33, 0x0f};
+constexpr std::uint8_t kUpper[3] = {0xaa, 0xcc, 0xf0};
+
+// Octants by which sides of the planes a box touches: bits 0-2 the lower sides, 3-5 the upper.
+constexpr std::array<std::uint8_t, 64> octants_of_sides() {
+    std::array<std::uint8_t, 64> table{};
+    for (unsigned sides = 0; sides < 64; ++sides) {
+        unsigned mask = 0xff;
+        for (unsigned axis = 0; axis < 3; ++axis)
+            mask &= ((sides >> axis & 1U) != 0 ? kLower[axis] : 0U) |
+                    ((sides >> (axis + 3) & 1U) != 0 ? kUpper[axis] : 0U);
+        table[sides] = static_cast<std::uint8_t>(mask);
+    }
+    return table;
+}
+constexpr std::array<std::uint8_t, 64> kOctantsOfSides = octants_of_sides();
+
+// Bit o of the index becomes byte o: eight counters in a word.
+constexpr std::array<std::uint64_t, 256> spread_bits() {
+    std::array<std::uint64_t, 256> table{};
+    for (unsigned mask = 0; mask < 256; ++mask)
+        for (unsigned o = 0; o < 8; ++o)
+            table[mask] |= static_cast<std::uint64_t>(mask >> o & 1U) << (8 * o);
+    return table;
+}
+constexpr std::array<std::uint64_t, 256> kSpread = spread_bits();
+
+// Octants that exist: the upper half of an axis that is not cut does not.
+unsigned existing_octants(const CutVoxel& voxel) {
+    unsigned mask = 0xff;
+    for (int axis = 0; axis < 3; ++axis)
+        if (!(voxel.cut[axis] < voxel.bounds.max[axis])) mask &= kLower[axis];
+    return mask;
+}
+
+unsigned sides(const Bounds3T<float>& box, const Vec3<float>& cut) {
+    const auto bit = [](bool on, unsigned place) { return static_cast<unsigned>(on) << place; };
+    return bit(box.min.x <= cut.x, 0) | bit(box.min.y <= cut.y, 1) | bit(box.min.z <= cut.z, 2) |
+           bit(box.max.x >= cut.x, 3) | bit(box.max.y >= cut.y, 4) | bit(box.max.z >= cut.z, 5);
+}
+
+std::array<std::size_t, 8> count_octants(const std::uint8_t* masks, std::size_t count) {
+    constexpr std::size_t kByteRange = 255;
+    std::array<std::size_t, 8> counts{};
+    for (std::size_t begin = 0; begin < count; begin += kByteRange) {
+        const std::size_t end = std::min(begin + kByteRange, count);
+        std::uint64_t bytes = 0;
+        for (std::size_t i = begin; i < end; ++i) bytes += kSpread[masks[i]];
+        for (unsigned o = 0; o < 8; ++o) counts[o] += bytes >> (8 * o) & 0xff;
+    }
+    return counts;
+}
+
+}  // namespace
+
+bool Prices::pays(const Split& split, std::size_t count) const {
+    double cost = interior(split.voxel.bounds);
+    for (unsigned o = 0; o < 8; ++o)
+        if (split.counts[o] != 0) cost += leaf(octant_box(split.voxel, o), split.counts[o]);
+    return cost < leaf(split.voxel.bounds, count);
+}
+
+std::array<std::size_t, 8> OctantMarker::mark(const CutVoxel& voxel, ItemSpan items,
+                                              std::uint8_t* masks) {
+    const std::size_t doubtful = mark_by_boxes(voxel, items, masks);
+    if (overlaps_ && doubtful > 0) refine(voxel, doubtful, masks);
+    return count_octants(masks, items.size());
+}
+
+std::size_t OctantMarker::mark_by_boxes(const CutVoxel& voxel, ItemSpan items,
+                                        std::uint8_t* masks) {
+    const unsigned existing = existing_octants(voxel);
+    if (doubtful_.size() < items.size()) {
+        doubtful_.resize(items.size());
+        places_.resize(items.size());
+        candidates_.resize(items.size());
+    }
+    std::size_t doubtful = 0;
+    for (std::size_t i = 0; i < items.size(); ++i) {
+        const unsigned mask = kOctantsOfSides[sides(boxes_[items[i]], voxel.cut)] & existing;
+        masks[i] = static_cast<std::uint8_t>(mask);
+        // Written always, kept where the count moves on: no branch to be guessed wrong.
+        doubtful_[doubtful] = items[i];
+        places_[doubtful] = static_cast<std::uint32_t>(i);
+        candidates_[doubtful] = static_cast<std::uint8_t>(mask);
+        doubtful += (mask & (mask - 1)) != 0 ? 1 : 0;
+    }
+    return doubtful;
+}
+
+void OctantMarker::refine(const CutVoxel& voxel, std::size_t doubtful, std::uint8_t* masks) {
+    overlaps_(voxel, ItemSpan(doubtful_).first(doubtful), std::span(candidates_).first(doubtful));
+    for (std::size_t i = 0; i < doubtful; ++i) masks[places_[i]] = candidates_[i];
+}
+
+void distribute(ItemSpan items, const std::uint8_t* masks, const std::array<std::size_t, 8>& first,
+                std::uint32_t* out) {
+    std::array<std::uint32_t*, 8> next;
+    for (unsigned o = 0; o < 8; ++o) next[o] = out + first[o];
+    for (std::size_t i = 0; i < items.size(); ++i) {
+        const unsigned mask = masks[i];
+        const std::uint32_t item = items[i];
+        for (unsigned o = 0; o < 8; ++o) {
+            *next[o] = item;
+            next[o] += mask >> o & 1U;
+        }
+    }
+}
+
+}  // namespace nuvo

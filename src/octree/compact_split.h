@@ -1,0 +1,76 @@
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "compact_cut.h"
+
+namespace nuvo {
+
+/// A voxel cut, and how many items each octant holds.
+struct Split {
+    CutVoxel voxel;
+    std::array<std::size_t, 8> counts{};
+
+    std::size_t references() const {
+        std::size_t sum = 0;
+        for (const std::size_t count : counts) sum += count;
+        return sum;
+    }
+    /// Bit o: octant o holds items.
+    unsigned occupied() const {
+        unsigned mask = 0;
+        for (unsigned o = 0; o < 8; ++o) mask |= (counts[o] != 0 ? 1U : 0U) << o;
+        return mask;
+    }
+    unsigned octants() const { return static_cast<unsigned>(std::popcount(occupied())); }
+};
+
+/// The surface area heuristic in units of half a square local unit. [eq. 10]
+class Prices {
+  public:
+    explicit Prices(const CompactCosts& costs) : costs_(costs) {}
+
+    double leaf(const Bounds3T<float>& voxel, std::size_t count) const {
+        return half_area(voxel) * (costs_.leaf + static_cast<double>(count));
+    }
+    double interior(const Bounds3T<float>& voxel) const {
+        return half_area(voxel) * costs_.interior;
+    }
+    /// False where a cut cannot pay: it costs a step and saves at most all tests.
+    bool may_pay(std::size_t count) const { return static_cast<double>(count) > costs_.interior; }
+    /// With the octants taken for leaves.
+    bool pays(const Split& split, std::size_t count) const;
+
+  private:
+    CompactCosts costs_;
+};
+
+/// Finds which octants of a cut voxel items touch. One for each thread: it keeps its buffers.
+class OctantMarker {
+  public:
+    OctantMarker(BoxSpan boxes, const OctantTest& overlaps) : boxes_(boxes), overlaps_(overlaps) {}
+
+    /// Sets masks[i] for items[i] and returns how many items touch each octant.
+    std::array<std::size_t, 8> mark(const CutVoxel& voxel, ItemSpan items, std::uint8_t* masks);
+
+  private:
+    std::size_t mark_by_boxes(const CutVoxel& voxel, ItemSpan items, std::uint8_t* masks);
+    void refine(const CutVoxel& voxel, std::size_t doubtful, std::uint8_t* masks);
+
+    BoxSpan boxes_;
+    const OctantTest& overlaps_;
+    std::vector<std::uint32_t> doubtful_;   // items with more than one octant,
+    std::vector<std::uint32_t> places_;     // their places among the items
+    std::vector<std::uint8_t> candidates_;  // and their octants
+};
+
+/// Writes the items of octant o in order to out[first[o]] and on, with one place of scratch behind.
+void distribute(ItemSpan items, const std::uint8_t* masks, const std::array<std::size_t, 8>& first,
+                std::uint32_t* out);
+
+}  // namespace nuvo

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "nuvo/octree/compact_build.h"
+
+namespace nuvo {
+
+/// A triangle's corners in the local frame, each rounded to nearest.
+struct LocalTriangle {
+    float corner[3][3];
+};
+/// A sphere in the local frame, each number rounded to nearest.
+struct LocalSphere {
+    float center[3];
+    float radius;
+};
+
+/// How far a rounded local coordinate lies from the true one: local coordinates are at most a
+/// little above 1, where float's unit roundoff is 2^-24 relative to values up to 2 (half a unit in
+/// the last place), and double's 2^-53 is less than what is left to spare.
+inline constexpr float kLocalRounding = 0x1p-23F;
+
+/// Clears in masks[i] the octants whose closed box triangles[items[i]] surely does not touch:
+/// the separating axes of Akenine-Moeller (2001) as edge functions, after Schwarz and Seidel
+/// (2010).
+void clear_octants(std::span<const LocalTriangle> triangles, const CutVoxel& voxel,
+                   std::span<const std::uint32_t> items, std::span<std::uint8_t> masks);
+
+/// The same for the surfaces of spheres[items[i] - first]; an octant wholly inside a sphere does
+/// not touch it.
+void clear_octants(std::span<const LocalSphere> spheres, std::uint32_t first, const CutVoxel& voxel,
+                   std::span<const std::uint32_t> items, std::span<std::uint8_t> masks);
+
+}  // namespace nuvo
