@@ -204,6 +204,17 @@ using Ints = Lanes<std::int32_t, 16>;
 using OctantFloats = Lanes<float, 8>;  ///< one number for each of 8 octants
 using Doubles4 = Lanes<double, 4>;
 
+/// At least 1 / sqrt(v), and at most 2^-9 more of it; v >= 0.
+HWY_INLINE Floats above_inverse_sqrt(Floats v) {
+#if HWY_TARGET == HWY_SCALAR || HWY_TARGET == HWY_EMU128
+    return Floats(1 + 0x1p-10F) / sqrt(v);
+#else
+    for (std::size_t i = 0; i < Floats::Shape::kParts; ++i)
+        v.part[i] = hn::ApproximateReciprocalSqrt(v.part[i]);
+    return v * Floats(1 + 0x1p-10F);  // the least accurate set is within 1.5 * 2^-12
+#endif
+}
+
 /// The lowest and the highest lane.
 HWY_INLINE float lowest(const Floats& v) {
     auto all = v.part[0];
