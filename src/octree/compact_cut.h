@@ -20,12 +20,6 @@ inline Bounds3T<float> octant_box(const CutVoxel& voxel, unsigned octant) {
     return box;
 }
 
-/// Half the surface of a box; the builder needs ratios only.
-inline double half_area(const Bounds3T<float>& box) {
-    const Vec3<double> w = Vec3<double>(box.max) - Vec3<double>(box.min);
-    return w.x * w.y + w.y * w.z + w.z * w.x;
-}
-
 /// The planes for these items; none where no axis can be cut.
 std::optional<CutVoxel> choose_cut(CutRule rule, const Bounds3T<float>& voxel, ItemSpan items,
                                    BoxSpan boxes);
