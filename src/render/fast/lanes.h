@@ -101,6 +101,17 @@ struct Lanes : LaneShape<T, N> {
             v.part[i] = hn::LoadU(Tag(), from + i * Shape::kPart);
         return v;
     }
+    /// Four numbers, again and again.
+    static HWY_INLINE Lanes load_4_again(const T* from) {
+        Lanes v;
+        for (std::size_t i = 0; i < Shape::kParts; ++i) {
+            if constexpr (Shape::kPart >= 4)
+                v.part[i] = hn::LoadDup128(Tag(), from);
+            else
+                v.part[i] = hn::LoadU(Tag(), from + i * Shape::kPart % 4);
+        }
+        return v;
+    }
     HWY_INLINE void store(T* to) const {
         for (std::size_t i = 0; i < Shape::kParts; ++i)
             hn::StoreU(part[i], Tag(), to + i * Shape::kPart);
@@ -109,6 +120,13 @@ struct Lanes : LaneShape<T, N> {
     HWY_INLINE void store(T* to, const Mask& mask) const {
         for (std::size_t i = 0; i < Shape::kParts; ++i)
             hn::BlendedStore(part[i], mask.part[i], Tag(), to + i * Shape::kPart);
+    }
+    /// The lanes of `mask` side by side; returns their number. Up to N lanes are written.
+    HWY_INLINE std::size_t compress_store(T* to, const Mask& mask) const {
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < Shape::kParts; ++i)
+            count += hn::CompressStore(part[i], mask.part[i], Tag(), to + count);
+        return count;
     }
     /// base[index[lane]]; indices of lanes that are not wanted must be valid, too.
     static HWY_INLINE Lanes gather(const T* base,
@@ -203,6 +221,17 @@ using RayMask = LaneMask<float, 16>;
 using Ints = Lanes<std::int32_t, 16>;
 using OctantFloats = Lanes<float, 8>;  ///< one number for each of 8 octants
 using Doubles4 = Lanes<double, 4>;
+
+/// At least 1 / sqrt(v), and at most 2^-9 more of it; v >= 0.
+HWY_INLINE Floats above_inverse_sqrt(Floats v) {
+#if HWY_TARGET == HWY_SCALAR || HWY_TARGET == HWY_EMU128
+    return Floats(1 + 0x1p-10F) / sqrt(v);
+#else
+    for (std::size_t i = 0; i < Floats::Shape::kParts; ++i)
+        v.part[i] = hn::ApproximateReciprocalSqrt(v.part[i]);
+    return v * Floats(1 + 0x1p-10F);  // the least accurate set is within 1.5 * 2^-12
+#endif
+}
 
 /// The lowest and the highest lane.
 HWY_INLINE float lowest(const Floats& v) {

@@ -36,6 +36,7 @@ struct alignas(64) Tile {
     float near_low[kTileLanes];
     float near_high[kTileLanes];
     float round_normal[3][kTileLanes];  ///< of spheres and ellipsoids: unit, outwards
+    float round_error[kTileLanes];      ///< bounds the error of round_normal on each axis
     TileMask hit;
 
     // Surfaces: of lanes that hit something lit.

@@ -1,0 +1,67 @@
+#include "camera_tables.h"
+
+#include <cmath>
+#include <limits>
+
+#include "camera_triangles.h"
+#include "nuvo/math/error_bounds.h"
+
+namespace nuvo {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr double kFloatRoundoff = 0x1p-24;
+
+float rounded_up(double value) {
+    return static_cast<float>(value * (1 + 2 * kFloatRoundoff) + kTableUnderflow);
+}
+
+CameraSphere make_sphere(const Point3& eye, double scale, const Point3& center, double radius,
+                         double direction) {
+    const Vector3 from = (eye - center) * scale;
+    const double r = radius * scale;
+    const double ff = dot(from, from);
+    const double power = ff - r * r;
+    // f carries one rounding, its square and r's three more.
+    const double error = gamma(8) * (ff + r * r);
+    const double gap = std::sqrt(ff) - r;
+    CameraSphere out{};
+    for (int axis = 0; axis < 3; ++axis) out.from[axis] = from[axis];
+    out.radius = static_cast<float>(r);
+    out.inverse_power = static_cast<float>(1 / power);
+    out.power_error = rounded_up(2 * error / std::fabs(power) + 4 * kFloatRoundoff);
+    out.nearest = gap > 0 && power > error
+                      ? rounded_up(1 / (gap * (1 - gamma(32)) - gamma(16) * std::sqrt(ff)))
+                      : kInfinity;
+    if (!(out.nearest > 0)) out.nearest = kInfinity;
+    out.distance = rounded_up(std::sqrt(ff));
+    out.cross_error = rounded_up(gamma(32) * max_norm(from) * direction);
+    out.exactly = !(std::fabs(power) > 4 * error && std::isfinite(out.inverse_power) &&
+                    std::isnormal(out.radius) && std::isfinite(out.cross_error));
+    return out;
+}
+
+}  // namespace
+
+CameraTables::CameraTables(const FastScene& fast, const CameraRays& camera, InstructionSet isa) {
+    const Scene& scene = fast.scene();
+    const Point3 eye = scene.camera.position;
+    const double scale = fast.frame().scale;
+    triangles.resize(fast.triangle_end());
+    make_camera_triangles(isa, fast, camera, triangles);
+    const double direction = CameraExtent(camera).direction;
+    spheres.reserve(fast.slot_end() - fast.triangle_end());
+    for (Slot slot = fast.triangle_end(); slot < fast.slot_end(); ++slot) {
+        const Shape& shape = scene.objects[fast.source(slot).object].shape;
+        if (const auto* sphere = std::get_if<Sphere>(&shape)) {
+            spheres.push_back(make_sphere(eye, scale, sphere->center, sphere->radius, direction));
+        } else {
+            const Bounds3 box = bounds(shape);
+            const double radius = 0.5 * length(box.widths()) * (1 + gamma(64));
+            spheres.push_back(make_sphere(eye, scale, box.center(), radius, direction));
+            spheres.back().exactly = true;
+        }
+    }
+}
+
+}  // namespace nuvo
