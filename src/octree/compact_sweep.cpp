@@ -63,10 +63,10 @@ class Bins {
         for (int axis = 0; axis < 3; ++axis) {
             ++begins_[begin[axis]][axis];
             ++ends_[end[axis]][axis];
-            float& first = reinterpret_cast<float*>(&first_begin_[begin[axis]])[axis];
-            float& last = reinterpret_cast<float*>(&last_end_[end[axis]])[axis];
-            first = b.low[axis] < first ? b.low[axis] : first;
-            last = b.high[axis] > last ? b.high[axis] : last;
+            Four& first = first_begin_[begin[axis]];
+            Four& last = last_end_[end[axis]];
+            first[axis] = b.low[axis] < first[axis] ? b.low[axis] : first[axis];
+            last[axis] = b.high[axis] > last[axis] ? b.high[axis] : last[axis];
         }
         ++count_;
     }
@@ -128,7 +128,11 @@ template <int kBins>
 Vec3<float> planes_of_bins(const Bounds3T<float>& voxel, ItemSpan items, BoxSpan boxes) {
     Bins<kBins> bins(voxel);
     const std::size_t stride = items.size() / kSample + 1;
-    for (std::size_t i = 0; i < items.size(); i += stride) bins.add(boxes[items[i]]);
+    const std::size_t ahead = kPrefetchAhead * stride;
+    for (std::size_t i = 0; i < items.size(); i += stride) {
+        if (i + ahead < items.size()) __builtin_prefetch(&boxes[items[i + ahead]]);
+        bins.add(boxes[items[i]]);
+    }
     return bins.planes();
 }
 

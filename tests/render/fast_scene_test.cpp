@@ -414,11 +414,10 @@ TEST(OctantTests, NeverClearAnOctantThatASphereTouchesInAPoint) {
         Vec3<float> away;
         for (int axis = 0; axis < 3; ++axis)
             away[axis] = static_cast<float>(q[axis]) * unit * (random() % 2 == 0 ? 1.0F : -1.0F);
-        const int turn = static_cast<int>(random() % 3);
+        const auto turn = static_cast<int>(random() % 3);
         LocalSphere sphere;
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            sphere.center[axis] =
-                place.point[static_cast<int>(axis)] + away[static_cast<int>((axis + turn) % 3)];
+        for (int axis = 0; axis < 3; ++axis)
+            sphere.center[axis] = place.point[axis] + away[(axis + turn) % 3];
         sphere.radius = static_cast<float>(q[3]) * unit;
         const std::uint8_t touched = octants_at(place.voxel, place.point);
         const std::vector<LocalSphere> spheres{sphere};
