@@ -36,8 +36,8 @@ void put(const Color& color, double factor, float (&out)[3]) {
 }
 
 // A color whose bytes are those of the exact one if nothing is added: where it is halfway between
-// two bytes it is moved up a little, as ties go.
-constexpr float kOffTie = 0x1p-18F;
+// two bytes it is moved up a little, as ties go; floats up to 255 are multiples of half of that.
+constexpr float kOffTie = 0x1p-15F;
 bool put_surely(const Color& color, float* out) {
     bool moved = false;
     const Rgb8 bytes = quantized(color);
@@ -55,7 +55,8 @@ bool put_surely(const Color& color, float* out) {
 ShadingMaterial shading_material(const Material& m) {
     ShadingMaterial out{};
     out.emissive_most = rounded_up(largest(m.emissive_color) * kFullByte);
-    if (put_surely(m.emissive_color, out.emissive)) out.emissive_most += kOffTie / kFloatUnit;
+    // The error counts at least 3 units of emissive_most.
+    if (put_surely(m.emissive_color, out.emissive)) out.emissive_most += kOffTie / (3 * kFloatUnit);
     if (!m.lit) return out;
     put(m.diffuse_color, kFullByte, out.diffuse);
     put(m.specular_color, kFullByte, out.specular);
