@@ -124,8 +124,10 @@ struct Lanes : LaneShape<T, N> {
     /// The lanes of `mask` side by side; returns their number. Up to N lanes are written.
     HWY_INLINE std::size_t compress_store(T* to, const Mask& mask) const {
         std::size_t count = 0;
-        for (std::size_t i = 0; i < Shape::kParts; ++i)
-            count += hn::CompressStore(part[i], mask.part[i], Tag(), to + count);
+        for (std::size_t i = 0; i < Shape::kParts; ++i) {
+            hn::StoreU(hn::Compress(part[i], mask.part[i]), Tag(), to + count);
+            count += hn::CountTrue(Tag(), mask.part[i]);
+        }
         return count;
     }
     /// base[index[lane]]; indices of lanes that are not wanted must be valid, too.
