@@ -21,12 +21,19 @@ constexpr int kExitUsage = 2;
 constexpr int kExitCannotWrite = 4;
 
 constexpr std::string_view kUsage =
-    "usage: testfile_generator NAME [--seed=N] [--out=FILE]   one scene, to FILE or standard "
+    "usage: testfile_generator NAME [option]... [--out=FILE]   one scene, to FILE or standard "
     "output\n"
-    "       testfile_generator --all --out=DIR [--seed=N]     every scene, to DIR/NAME.x3d\n"
-    "       testfile_generator --list                         the scenes\n"
-    "       testfile_generator -h                             this text\n"
-    "The same seed (a whole number below 2^64, 2 unless given) gives the same bytes everywhere.\n";
+    "       testfile_generator --all --out=DIR [--seed=N]      the test files, to DIR/NAME.x3d\n"
+    "       testfile_generator --list                          the scenes\n"
+    "       testfile_generator -h                              this text\n"
+    "  --seed=N           a whole number below 2^64 (2); the same seed gives the same bytes\n"
+    "  --camera=far|near  teapot, test1 ... test4, octahedra, spheres: where the scene fits the\n"
+    "                     picture's height, or at 0.3 of that distance\n"
+    "  --copies=N         test2: N times (1 to 1000) as many shapes, as densely\n"
+    "  --count=N          octahedra, spheres: how many (1 to 10,000,000)\n";
+
+constexpr int kMaxCopies = 1000;
+constexpr int kMaxCount = 10'000'000;
 
 /// The command line is wrong: the text says how.
 struct UsageError : std::runtime_error {
@@ -42,7 +49,7 @@ struct Request {
     bool help = false;
     bool list = false;
     bool all = false;
-    std::uint64_t seed = kDefaultSeed;
+    Variation variation;
     std::optional<std::string> name;
     std::optional<std::string> out;
 };
@@ -56,6 +63,51 @@ std::uint64_t parse_seed(std::string_view text) {
     return seed;
 }
 
+int parse_number(std::string_view option, std::string_view text, int most) {
+    int value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size() || value < 1 || value > most) {
+        throw UsageError(std::string(option) + std::string(text) +
+                         ": not a whole number from 1 to " + std::to_string(most));
+    }
+    return value;
+}
+
+CameraPlace parse_camera(std::string_view text) {
+    if (text == "far") return CameraPlace::kFar;
+    if (text == "near") return CameraPlace::kNear;
+    throw UsageError("--camera=" + std::string(text) + ": neither far nor near");
+}
+
+/// Takes an option that changes scenes; false where it is none.
+bool parse_variation(std::string_view argument, Variation& variation) {
+    constexpr std::string_view kSeed = "--seed=";
+    constexpr std::string_view kCamera = "--camera=";
+    constexpr std::string_view kCopies = "--copies=";
+    constexpr std::string_view kCount = "--count=";
+    if (argument.starts_with(kSeed)) {
+        variation.seed = parse_seed(argument.substr(kSeed.size()));
+    } else if (argument.starts_with(kCamera)) {
+        variation.camera = parse_camera(argument.substr(kCamera.size()));
+    } else if (argument.starts_with(kCopies)) {
+        variation.copies = parse_number(kCopies, argument.substr(kCopies.size()), kMaxCopies);
+    } else if (argument.starts_with(kCount)) {
+        variation.count = parse_number(kCount, argument.substr(kCount.size()), kMaxCount);
+    } else {
+        return false;
+    }
+    return true;
+}
+
+/// An option must mean something to the scene that is asked for; --all takes the seed only.
+void check_variation(const Variation& variation, const std::string& name, const Takes& takes) {
+    if (variation.camera != CameraPlace::kOwn && !takes.camera)
+        throw UsageError(name + " takes no --camera");
+    if (variation.copies != 1 && !takes.copies) throw UsageError(name + " takes no --copies");
+    if (variation.count != 0 && !takes.count) throw UsageError(name + " takes no --count");
+    if (variation.count == 0 && takes.count) throw UsageError(name + " needs --count=N");
+}
+
 Request parse(const std::vector<std::string_view>& arguments) {
     Request request;
     for (const std::string_view argument : arguments) {
@@ -65,8 +117,8 @@ Request parse(const std::vector<std::string_view>& arguments) {
             request.list = true;
         } else if (argument == "--all") {
             request.all = true;
-        } else if (argument.starts_with("--seed=")) {
-            request.seed = parse_seed(argument.substr(7));
+        } else if (parse_variation(argument, request.variation)) {
+            continue;
         } else if (argument.starts_with("--out=")) {
             request.out = argument.substr(6);
         } else if (argument.starts_with("-")) {
@@ -83,6 +135,8 @@ Request parse(const std::vector<std::string_view>& arguments) {
     }
     if (request.all && !request.out) throw UsageError("--all needs --out=DIR");
     if (request.list && request.out) throw UsageError("--list takes no --out");
+    if (request.all) check_variation(request.variation, "--all", {});
+    if (request.list) check_variation(request.variation, "--list", {});
     if (request.out && request.out->empty()) throw UsageError("--out= needs a name");
     return request;
 }
@@ -124,12 +178,15 @@ void run(const Request& request) {
         std::error_code ignored;  // what matters is whether the files can be written
         std::filesystem::create_directories(*request.out, ignored);
         for (const Scene& scene : all_scenes()) {
+            if (scene.takes.count) continue;
             const auto file =
                 std::filesystem::path(*request.out) / (std::string(scene.name) + ".x3d");
-            write_file(file, scene.write(request.seed));
+            write_file(file, scene.write(request.variation));
         }
     } else {
-        const std::string text = find_scene(*request.name).write(request.seed);
+        const Scene& scene = find_scene(*request.name);
+        check_variation(request.variation, *request.name, scene.takes);
+        const std::string text = scene.write(request.variation);
         if (request.out) {
             write_file(*request.out, text);
         } else {

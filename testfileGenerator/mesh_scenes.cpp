@@ -25,7 +25,7 @@ constexpr std::string_view kIndent = "        ";
 
 }  // namespace
 
-std::string icosphere_scene(std::uint64_t) {
+std::string icosphere_scene(const Variation&) {
     // The camera of the thesis' validation tests sees 4.14 up and down at the origin: spheres of
     // this radius at these distances fill the picture and leave the light in the middle free.
     constexpr double kRadius = 1.6;
@@ -63,7 +63,7 @@ std::string icosphere_scene(std::uint64_t) {
     return out + scene_foot();
 }
 
-std::string trianglemesh_scene(std::uint64_t) {
+std::string trianglemesh_scene(const Variation&) {
     const Mesh plate{{{-5, 0, -4.2}, {-5, 0, 2.8}, {5, 0, 2.8}, {5, 0, -4.2}},
                      {{0, 1, 2}, {0, 2, 3}}};
     struct Item {

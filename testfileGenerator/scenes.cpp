@@ -6,6 +6,10 @@ namespace nuvo::generator {
 
 namespace {
 
+constexpr Takes kCamera{.camera = true};
+constexpr Takes kCameraAndCopies{.camera = true, .copies = true};
+constexpr Takes kCameraAndCount{.camera = true, .count = true};
+
 constexpr std::array kScenes{
     Scene{"trianglemesh", "the default file: three triangle meshes on a plate", trianglemesh_scene},
     Scene{"appendixE", "thesis appendix E, figure 24: sphere, directional light", appendix_e},
@@ -16,11 +20,14 @@ constexpr std::array kScenes{
     Scene{"figure29", "thesis figure 29: four spheres, blue light, field of view 0.9", figure_29},
     Scene{"appendixG", "thesis appendix G, figure 30: four spheres, grey light", appendix_g},
     Scene{"icosphere", "thesis figure 31: four icospheres, two shininesses", icosphere_scene},
-    Scene{"teapot", "thesis base test: the Utah teapot, one mesh", teapot_scene},
-    Scene{"test1", "thesis test 1: 728 octahedra on a grid", test_1},
-    Scene{"test2", "thesis test 2: 1,000 octahedra at random", test_2},
-    Scene{"test3", "thesis test 3: 5,985 spheres on five shells", test_3},
-    Scene{"test4", "thesis test 4: 3,200 octahedra in 64 clumps", test_4},
+    Scene{"teapot", "thesis base test: the Utah teapot, one mesh", teapot_scene, kCamera},
+    Scene{"test1", "thesis test 1: 728 octahedra on a grid", test_1, kCamera},
+    Scene{"test2", "thesis test 2: 1,000 octahedra at random", test_2, kCameraAndCopies},
+    Scene{"test3", "thesis test 3: 5,985 spheres on five shells", test_3, kCamera},
+    Scene{"test4", "thesis test 4: 3,200 octahedra in 64 clumps", test_4, kCamera},
+    Scene{"octahedra", "any number (--count=N) of octahedra like test 2's, one mesh",
+          many_octahedra, kCameraAndCount},
+    Scene{"spheres", "any number (--count=N) of spheres at random", many_spheres, kCameraAndCount},
 };
 
 }  // namespace

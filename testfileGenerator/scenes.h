@@ -7,38 +7,65 @@
 
 namespace nuvo::generator {
 
+/// The seed of the files in testfiles/ (README.md says why it is this one).
+inline constexpr std::uint64_t kDefaultSeed = 2;
+
+/// Where the camera of an octree test stands.
+enum class CameraPlace {
+    kOwn,   ///< as in testfiles/
+    kFar,   ///< where the scene fits the picture's height
+    kNear,  ///< at 0.3 of that distance from the scene's front
+};
+
+/// What a scene may be asked to do differently. The default gives the files in testfiles/.
+struct Variation {
+    std::uint64_t seed = kDefaultSeed;
+    CameraPlace camera = CameraPlace::kOwn;
+    int copies = 1;  ///< times as many shapes, as densely: the space grows
+    int count = 0;   ///< shapes of a scene that has no number of its own
+};
+
+/// The options that a scene takes beside the seed.
+struct Takes {
+    bool camera = false;
+    bool copies = false;
+    bool count = false;  ///< needs it, and is no file of testfiles/
+};
+
 /// One scene the program can write. The same seed gives the same text on every platform; scenes
 /// without chance in them ignore it.
 struct Scene {
     std::string_view name;
     std::string_view summary;
-    std::string (*write)(std::uint64_t seed);
+    std::string (*write)(const Variation& variation);
+    Takes takes = {};
 };
 
-/// The seed of the files in testfiles/ (README.md says why it is this one).
-inline constexpr std::uint64_t kDefaultSeed = 2;
-
-/// Every scene, in the order of the thesis.
+/// Every scene: those of testfiles/ in the order of the thesis, then those of any size.
 std::span<const Scene> all_scenes();
 
 // The thesis' validation scenes (sections 5.6.1 to 5.6.3, appendices E to G).
-std::string appendix_e(std::uint64_t seed);
-std::string appendix_f(std::uint64_t seed);
-std::string appendix_g(std::uint64_t seed);
-std::string figure_25(std::uint64_t seed);
-std::string figure_27(std::uint64_t seed);
-std::string figure_28(std::uint64_t seed);
-std::string figure_29(std::uint64_t seed);
+std::string appendix_e(const Variation& variation);
+std::string appendix_f(const Variation& variation);
+std::string appendix_g(const Variation& variation);
+std::string figure_25(const Variation& variation);
+std::string figure_27(const Variation& variation);
+std::string figure_28(const Variation& variation);
+std::string figure_29(const Variation& variation);
 
 // Scenes of triangle meshes (section 5.6.4, and the program's default file).
-std::string icosphere_scene(std::uint64_t seed);
-std::string trianglemesh_scene(std::uint64_t seed);
+std::string icosphere_scene(const Variation& variation);
+std::string trianglemesh_scene(const Variation& variation);
 
 // The scenes of the octree tests (section 5.7.3).
-std::string teapot_scene(std::uint64_t seed);
-std::string test_1(std::uint64_t seed);
-std::string test_2(std::uint64_t seed);
-std::string test_3(std::uint64_t seed);
-std::string test_4(std::uint64_t seed);
+std::string teapot_scene(const Variation& variation);
+std::string test_1(const Variation& variation);
+std::string test_2(const Variation& variation);
+std::string test_3(const Variation& variation);
+std::string test_4(const Variation& variation);
+
+// Scenes of any size, for measuring.
+std::string many_octahedra(const Variation& variation);
+std::string many_spheres(const Variation& variation);
 
 }  // namespace nuvo::generator

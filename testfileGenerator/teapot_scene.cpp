@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "camera.h"
 #include "mesh.h"
 #include "scenes.h"
 #include "x3d_text.h"
@@ -121,7 +122,7 @@ Mesh teapot() {
 
 }  // namespace
 
-std::string teapot_scene(std::uint64_t) {
+std::string teapot_scene(const Variation& variation) {
     const Mesh mesh = teapot();
     Point low = mesh.points.front();
     Point high = low;
@@ -131,9 +132,13 @@ std::string teapot_scene(std::uint64_t) {
     }
     const Point middle{six_decimals((low.x + high.x) / 2), six_decimals((low.y + high.y) / 2),
                        six_decimals((low.z + high.z) / 2)};
+    const double fitting = fitting_distance((high.y - low.y) / 2);
+    const double distance = variation.camera == CameraPlace::kOwn
+                                ? kCameraDistance
+                                : six_decimals(camera_fraction(variation.camera, 0) * fitting);
     std::string out = scene_head(
         "teapot", "The Utah teapot (Newell): 32 patches at 20 x 20, 25,440 triangles in one mesh");
-    out += "    <Viewpoint position='" + triple({middle.x, middle.y, high.z + kCameraDistance}) +
+    out += "    <Viewpoint position='" + triple({middle.x, middle.y, high.z + distance}) +
            "' fieldOfView='0.7853981633974483'/>\n";
     out += sky_and_no_headlight();
     // In the middle of the shapes like in the other tests; here that is inside the pot.

@@ -96,21 +96,21 @@ std::string four_spheres(std::string_view color, std::string_view field_of_view)
 
 }  // namespace
 
-std::string appendix_e(std::uint64_t) { return std::string(kAppendixE); }
+std::string appendix_e(const Variation&) { return std::string(kAppendixE); }
 
-std::string appendix_f(std::uint64_t) { return std::string(kAppendixF); }
+std::string appendix_f(const Variation&) { return std::string(kAppendixF); }
 
-std::string appendix_g(std::uint64_t) { return std::string(kAppendixG); }
+std::string appendix_g(const Variation&) { return std::string(kAppendixG); }
 
-std::string figure_25(std::uint64_t) {
+std::string figure_25(const Variation&) {
     return replaced(std::string(kAppendixF),
                     "cutOffAngle='0.3' color='1 1\n    1' beamWidth='0.1' />", "color='1 1 1' />");
 }
 
-std::string figure_27(std::uint64_t) { return four_spheres("1 0 0", "0.7"); }
+std::string figure_27(const Variation&) { return four_spheres("1 0 0", "0.7"); }
 
-std::string figure_28(std::uint64_t) { return four_spheres("0 1 0", "0.8"); }
+std::string figure_28(const Variation&) { return four_spheres("0 1 0", "0.8"); }
 
-std::string figure_29(std::uint64_t) { return four_spheres("0 0 1", "0.9"); }
+std::string figure_29(const Variation&) { return four_spheres("0 0 1", "0.9"); }
 
 }  // namespace nuvo::generator

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -90,11 +91,12 @@ std::vector<std::vector<double>> number_lists(const std::string& text, const std
     return lists;
 }
 
+/// The scenes of testfiles/: all that need no --count.
 std::vector<std::string> scene_names() {
     std::vector<std::string> names;
     std::istringstream lines(generate("--list").text);
     for (std::string line; std::getline(lines, line);) {
-        names.push_back(line.substr(0, line.find(' ')));
+        if (occurrences(line, "--count=N") == 0) names.push_back(line.substr(0, line.find(' ')));
     }
     return names;
 }
@@ -285,6 +287,84 @@ TEST(Generator, AnotherSeedChangesScenesOfChanceAndNoOthers) {
     EXPECT_EQ(generate("test2 --seed=18446744073709551615").exit_code, 0);
 }
 
+/// The camera's distance from the scene's front and half the scene's height, from what the file
+/// says: `reach` is how far a shape goes from its centre.
+std::array<double, 2> distance_and_half_height(const std::string& text, double reach) {
+    const double z = number_lists(text, "Viewpoint position='").at(0).at(2);
+    double front = 0;
+    double half_height = 0;
+    for (const auto& center : number_lists(text, "translation='")) {
+        front = std::max(front, center[2] + reach);
+        half_height = std::max(half_height, std::abs(center[1]) + reach);
+    }
+    return {z - front, half_height};
+}
+
+TEST(Generator, FarFitsThePicturesHeightAndNearStandsAtThreeTenthsOfThat) {
+    const std::map<std::string, double> reach{
+        {"test1", 12}, {"test2", 7.5}, {"test3", 3}, {"test4", 4}};
+    for (const auto& [name, radius] : reach) {
+        const auto far = distance_and_half_height(generate(name + " --camera=far").text, radius);
+        const auto near = distance_and_half_height(generate(name + " --camera=near").text, radius);
+        // The front just fits, 45 degrees high with a twentieth to spare.
+        const double seen = far[0] * std::tan(std::acos(-1.0) / 8);
+        EXPECT_NEAR(seen, 1.05 * far[1], 0.02) << name;
+        EXPECT_NEAR(near[0], 0.3 * far[0], 0.02) << name;
+    }
+}
+
+TEST(Generator, TheTeapotFitsFromFarAndKeepsItsMesh) {
+    const std::string own = test_file("teapot");
+    const std::string far = generate("teapot --camera=far").text;
+    const double z = number_lists(far, "Viewpoint position='").at(0).at(2);
+    double front = 0;
+    double top = 0;
+    const std::vector<double> points = number_lists(far, " point='").at(0);
+    for (std::size_t i = 0; i < points.size(); i += 3) {
+        top = std::max(top, points[i + 1]);
+        front = std::max(front, points[i + 2]);
+    }
+    // The pot stands on y = 0.
+    EXPECT_NEAR((z - front) * std::tan(std::acos(-1.0) / 8), 1.05 * top / 2, 1e-5);
+    const auto mesh = own.find("<Shape>");
+    EXPECT_TRUE(far.substr(far.find("<Shape>")) == own.substr(mesh));
+}
+
+TEST(Generator, CopiesAddShapesAtTheSameDensity) {
+    const std::string text = generate("test2 --copies=8").text;
+    const auto centers = number_lists(text, "translation='");
+    ASSERT_EQ(centers.size(), 8000U);
+    double furthest = 0;
+    std::set<std::vector<double>> distinct;
+    for (const auto& center : centers) {
+        distinct.insert(center);
+        for (const double x : center) furthest = std::max(furthest, std::abs(x));
+    }
+    EXPECT_EQ(distinct.size(), 8000U);
+    // Eight times the volume: twice the side of 1,000. 24,000 numbers come close to the faces.
+    EXPECT_LE(furthest, 1000);
+    EXPECT_GT(furthest, 998);
+    EXPECT_TRUE(generate("test2 --copies=1").text == test_file("test2"));
+}
+
+TEST(Generator, WritesAsManySpheresOrOctahedraAsAsked) {
+    const std::string spheres = generate("spheres --count=1000").text;
+    const auto centers = number_lists(spheres, "translation='");
+    EXPECT_EQ(centers.size(), 1000U);
+    EXPECT_EQ(occurrences(spheres, "<Sphere radius='1'/>"), 1000U);
+    for (const auto& center : centers)
+        for (const double x : center) EXPECT_LE(std::abs(x), 50);  // 10 radii each
+    const std::string octahedra = generate("octahedra --count=125 --seed=5").text;
+    EXPECT_EQ(occurrences(octahedra, "<Shape>"), 1U);
+    const auto index = number_lists(octahedra, " index='").at(0);
+    const auto points = number_lists(octahedra, " point='").at(0);
+    EXPECT_EQ(index.size(), 125U * 8 * 3);
+    EXPECT_EQ(points.size(), 125U * 6 * 3);
+    for (const double corner : index) EXPECT_LT(corner, 125 * 6);
+    for (const double x : points) EXPECT_LE(std::abs(x), 250 + 7.5);  // 5 * 100 wide
+    EXPECT_FALSE(octahedra == generate("octahedra --count=125").text);
+}
+
 TEST(Generator, RefusesMisuseWithTwoAndOneLineThatSaysWhy) {
     const TemporaryFolder folder;
     const std::string out = " --out=" + (folder.path() / "never").string();
@@ -301,7 +381,16 @@ TEST(Generator, RefusesMisuseWithTwoAndOneLineThatSaysWhy) {
         {"test2 --seed=-1" + out, "--seed=-1: not a whole number"},
         {"test2 --seed=1.5" + out, "--seed=1.5: not a whole number"},
         {"test2 --seed=18446744073709551616" + out, "not a whole number"},
-        {"test2 --sed=1" + out, "unknown option --sed=1"}};
+        {"test2 --sed=1" + out, "unknown option --sed=1"},
+        {"test2 --camera=middle" + out, "--camera=middle: neither far nor near"},
+        {"test2 --copies=0" + out, "--copies=0: not a whole number from 1 to 1000"},
+        {"test2 --copies=1001" + out, "--copies=1001: not a whole number"},
+        {"test1 --copies=2" + out, "test1 takes no --copies"},
+        {"test2 --count=2" + out, "test2 takes no --count"},
+        {"appendixE --camera=far" + out, "appendixE takes no --camera"},
+        {"spheres" + out, "spheres needs --count=N"},
+        {"octahedra --count=1e6" + out, "--count=1e6: not a whole number"},
+        {"--all --camera=far" + out, "--all takes no --camera"}};
     for (const auto& [arguments, message] : wrong) {
         const Outcome outcome = generate(arguments + " 2>&1 >/dev/null");
         EXPECT_EQ(outcome.exit_code, 2) << arguments;
@@ -327,7 +416,8 @@ TEST(Generator, SaysWhichFileItCannotWrite) {
 TEST(Generator, ExplainsItselfOnRequest) {
     const Outcome outcome = generate("-h");
     EXPECT_EQ(outcome.exit_code, 0);
-    for (const char* option : {"--list", "--all", "--seed=N", "--out="}) {
+    for (const char* option :
+         {"--list", "--all", "--seed=N", "--out=", "--camera=", "--copies=N", "--count=N"}) {
         EXPECT_GE(occurrences(outcome.text, option), 1U) << option;
     }
 }

@@ -114,6 +114,17 @@ struct Lanes : LaneShape<T, N> {
                 Tag(), hn::PromoteTo(Wide(), hn::LoadU(Narrow(), from + i * Shape::kPart)));
         return v;
     }
+    /// Four numbers, again and again.
+    static HWY_INLINE Lanes load_4_again(const T* from) {
+        Lanes v;
+        for (std::size_t i = 0; i < Shape::kParts; ++i) {
+            if constexpr (Shape::kPart >= 4)
+                v.part[i] = hn::LoadDup128(Tag(), from);
+            else
+                v.part[i] = hn::LoadU(Tag(), from + i * Shape::kPart % 4);
+        }
+        return v;
+    }
     HWY_INLINE void store(T* to) const {
         for (std::size_t i = 0; i < Shape::kParts; ++i)
             hn::StoreU(part[i], Tag(), to + i * Shape::kPart);
@@ -152,6 +163,15 @@ struct Lanes : LaneShape<T, N> {
         }
         return v;
     }
+    /// The lanes of `mask` side by side; returns their number. Up to N lanes are written.
+    HWY_INLINE std::size_t compress_store(T* to, const Mask& mask) const {
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < Shape::kParts; ++i) {
+            hn::StoreU(hn::Compress(part[i], mask.part[i]), Tag(), to + count);
+            count += hn::CountTrue(Tag(), mask.part[i]);
+        }
+        return count;
+    }
     /// base[index[lane]]; indices of lanes that are not wanted must be valid, too.
     static HWY_INLINE Lanes gather(const T* base,
                                    const Lanes<std::int32_t, N>& index) requires(sizeof(T) == 4) {
@@ -172,6 +192,7 @@ struct Lanes : LaneShape<T, N> {
     NUVO_LANES_BINARY(*, Mul)
     NUVO_LANES_BINARY(/, Div)
     NUVO_LANES_BINARY(&, And)
+    NUVO_LANES_BINARY(|, Or)
 #undef NUVO_LANES_BINARY
 #define NUVO_LANES_COMPARE(op, function)                                 \
     friend HWY_INLINE Mask operator op(const Lanes& a, const Lanes& b) { \
@@ -250,6 +271,36 @@ using RayMask = LaneMask<float, 16>;
 using Ints = Lanes<std::int32_t, 16>;
 using OctantFloats = Lanes<float, 8>;  ///< one number for each of 8 octants
 using Doubles4 = Lanes<double, 4>;
+using Doubles = Lanes<double, 16>;  ///< Floats' lanes
+
+/// Rounded to the nearest floats.
+HWY_INLINE Floats floats_from(const Doubles& v) {
+    Floats out;
+#if HWY_TARGET == HWY_SCALAR
+    for (std::size_t i = 0; i < Floats::Shape::kParts; ++i)
+        out.part[i] = hn::DemoteTo(Floats::Tag(), v.part[i]);
+#else
+    const hn::Half<Floats::Tag> half;
+    for (std::size_t i = 0; i < Floats::Shape::kParts; ++i)
+        out.part[i] = hn::Combine(Floats::Tag(), hn::DemoteTo(half, v.part[2 * i + 1]),
+                                  hn::DemoteTo(half, v.part[2 * i]));
+#endif
+    return out;
+}
+HWY_INLINE Doubles doubles_from(const Floats& v) {
+    Doubles out;
+#if HWY_TARGET == HWY_SCALAR
+    for (std::size_t i = 0; i < Floats::Shape::kParts; ++i)
+        out.part[i] = hn::PromoteTo(Doubles::Tag(), v.part[i]);
+#else
+    const hn::Half<Floats::Tag> half;
+    for (std::size_t i = 0; i < Floats::Shape::kParts; ++i) {
+        out.part[2 * i] = hn::PromoteTo(Doubles::Tag(), hn::LowerHalf(half, v.part[i]));
+        out.part[2 * i + 1] = hn::PromoteTo(Doubles::Tag(), hn::UpperHalf(half, v.part[i]));
+    }
+#endif
+    return out;
+}
 
 /// At least 1 / sqrt(v), and at most 2^-9 more of it; v >= 0.
 HWY_INLINE Floats above_inverse_sqrt(Floats v) {
@@ -260,6 +311,39 @@ HWY_INLINE Floats above_inverse_sqrt(Floats v) {
         v.part[i] = hn::ApproximateReciprocalSqrt(v.part[i]);
     return v * Floats(1 + 0x1p-10F);  // the least accurate set is within 1.5 * 2^-12
 #endif
+}
+
+/// The bits of floats as integers, and back.
+HWY_INLINE Ints bits_of(const Floats& v) {
+    Ints out;
+    for (std::size_t i = 0; i < Floats::Shape::kParts; ++i)
+        out.part[i] = hn::BitCast(Ints::Tag(), v.part[i]);
+    return out;
+}
+HWY_INLINE Floats floats_of(const Ints& v) {
+    Floats out;
+    for (std::size_t i = 0; i < Floats::Shape::kParts; ++i)
+        out.part[i] = hn::BitCast(Floats::Tag(), v.part[i]);
+    return out;
+}
+template <int kBits>
+HWY_INLINE Ints shift_left(Ints v) {
+    for (std::size_t i = 0; i < Ints::Shape::kParts; ++i)
+        v.part[i] = hn::ShiftLeft<kBits>(v.part[i]);
+    return v;
+}
+/// With copies of the sign.
+template <int kBits>
+HWY_INLINE Ints shift_right(Ints v) {
+    for (std::size_t i = 0; i < Ints::Shape::kParts; ++i)
+        v.part[i] = hn::ShiftRight<kBits>(v.part[i]);
+    return v;
+}
+HWY_INLINE Floats floats_from(const Ints& v) {
+    Floats out;
+    for (std::size_t i = 0; i < Floats::Shape::kParts; ++i)
+        out.part[i] = hn::ConvertTo(Floats::Tag(), v.part[i]);
+    return out;
 }
 
 /// The lowest and the highest lane.
@@ -273,6 +357,24 @@ HWY_INLINE float highest(const Floats& v) {
     for (std::size_t i = 1; i < Floats::Shape::kParts; ++i) all = hn::Max(all, v.part[i]);
     return hn::GetLane(hn::MaxOfLanes(Floats::Tag(), all));
 }
+
+/// The lowest (highest) of lanes 4 i .. 4 i + 3 in each of these.
+HWY_INLINE Floats lowest_of_fours(Floats v) {
+#if HWY_TARGET == HWY_SCALAR
+    for (std::size_t i = 0; i < 16; i += 4) {
+        const auto ab = hn::Min(v.part[i], v.part[i + 1]);
+        const auto all = hn::Min(ab, hn::Min(v.part[i + 2], v.part[i + 3]));
+        for (std::size_t k = 0; k < 4; ++k) v.part[i + k] = all;
+    }
+#else
+    for (auto& part : v.part) {
+        part = hn::Min(part, hn::Shuffle2301(part));
+        part = hn::Min(part, hn::Shuffle1032(part));
+    }
+#endif
+    return v;
+}
+HWY_INLINE Floats highest_of_fours(const Floats& v) { return -lowest_of_fours(-v); }
 
 }  // namespace nuvo::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

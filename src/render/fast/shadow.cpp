@@ -1,0 +1,337 @@
+#include "fast/shadow.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "fast/shadow.cpp"
+#include <hwy/foreach_target.h>
+
+#include "fast/beam.h"
+#include "fast/shadow_beam.h"
+#include "fast/shadow_boxes.h"
+#include "fast/shadow_clusters.h"
+#include "fast/shadow_lanes.h"
+
+// One light, one tile. A way from a point to the light is blocked as soon as one item surely blocks
+// it; what floats leave open is put aside and asked of the referee only for the points that nothing
+// blocked surely.
+
+HWY_BEFORE_NAMESPACE();
+namespace nuvo::HWY_NAMESPACE {
+
+class ShadowTracer {
+  public:
+    ShadowTracer(ShadowJob& job, const Tile& tile, std::size_t light, const TileMask& wanted,
+                 TileMask& lit)
+        : job_(job),
+          scene_(job.tables.scene()),
+          table_(job.tables.table(light)),
+          clusters_(tile, wanted),
+          lit_(lit),
+          rounds_(job.tables.has_rounds()) {
+        const float error = clusters_.point_error() * (1 + 4 * kRoundoff);
+        plane_error_ = (error + job.tables.plane_error()) * (1 + 4 * kRoundoff);
+        round_error_ = (2 * error + job.tables.round_error()) * (1 + 4 * kRoundoff);
+    }
+
+    void run() {
+        clusters_.for_each([&](int first, int count, const PointBox& box) HWY_ATTR {
+            load(first, count);
+            trace_beam(box);
+            for (int p = 0; p < packets_; ++p) finish(p);
+        });
+    }
+
+  private:
+    static constexpr float kRoundoff = 0x1p-24F;
+    // Batches grow along the way: what blocks is often close.
+    static constexpr std::uint32_t kFirstBatch = 4;
+
+    struct Batch {
+        static constexpr std::uint32_t kSize = 32;
+        std::uint32_t count = 0;
+        Slot slot[kSize];
+
+        HWY_INLINE void add(Slot item, std::uint32_t fresh) {
+            slot[count] = item;
+            count += fresh;
+        }
+        bool full() const { return count == kSize; }
+    };
+
+    // Copies a cluster's lanes into packets, the last filled up with its own last lane.
+    HWY_INLINE void load(int first, int count) {
+        first_ = first;
+        packets_ = (count + 15) / 16;
+        alive_ = (1U << packets_) - 1;
+        by_fours_ = packets_ <= 4;
+        group_shift_ = by_fours_ ? 2 : 0;
+        group_mask_ = by_fours_ ? 0xf : 1;
+        groups_ = by_fours_ ? 0xffff >> (16 - 4 * packets_) : alive_;
+        for (int p = 0; p < packets_; ++p) {
+            const int here = std::min(16, count - 16 * p);
+            waiting_[p] = (1U << here) - 1;
+            points_[p] = clusters_.points(first + 16 * p, here);
+        }
+        if (packets_ > 1) load_boxes();
+        if (rounds_)
+            for (int p = 0; p < packets_; ++p) ways_[p] = Ways(table_.light, points_[p]);
+    }
+
+    // A small cluster is tested by fours of points first, a larger one by packets.
+    HWY_INLINE void load_boxes() {
+        const GroupBoxes boxes(points_, packets_, by_fours_);
+        centers_ = boxes.center;
+        box_error_ = boxes.half + Floats(plane_error_);
+        if (!rounds_) return;
+        center_ways_ = Ways(table_.light, centers_);
+        round_box_error_ = boxes.radius + Floats(round_error_);
+    }
+
+    void trace_beam(const PointBox& box) {
+        job_.mailbox.start();
+        triangles_.count = 0;
+        spheres_.count = 0;
+        enough_ = kFirstBatch;
+        const BeamBox beam =
+            beam_to_light(table_.light, box.low, box.high, plane_error_ + 8 * kRoundoff);
+        const bool done = walk_beam(
+            scene_.octree(), beam, [](float) { return false; },
+            [&](const std::uint32_t* items, std::uint32_t count, float)
+                HWY_ATTR { return take(items, count); });
+        if (!done) test_taken();
+    }
+
+    // Tests are put off until there are some: what comes out of one cannot be foreseen, but they
+    // can run at the same time. Returns whether nothing waits any more.
+    HWY_INLINE bool take(const std::uint32_t* items, std::uint32_t count) {
+        const Slot triangle_end = scene_.triangle_end();
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const Slot slot = items[i];
+            const std::uint32_t fresh = job_.mailbox.seen(slot) ? 0 : 1;
+            if (slot < triangle_end)
+                triangles_.add(slot, fresh);
+            else
+                spheres_.add(slot, fresh);
+            if (triangles_.full() || spheres_.full()) {
+                test_taken();
+                if (alive_ == 0) return true;
+            }
+        }
+        if (triangles_.count + spheres_.count < enough_) return false;
+        enough_ = std::min(2 * enough_, Batch::kSize);
+        test_taken();
+        return alive_ == 0;
+    }
+    HWY_INLINE void test_taken() {
+        if (triangles_.count > 0) test_triangles();
+        if (spheres_.count > 0) {
+            for (std::uint32_t i = 0; i < spheres_.count; ++i) test_round(spheres_.slot[i]);
+            spheres_.count = 0;
+        }
+        update();
+    }
+
+    void test_triangles() {
+        Batch near;
+        near.count = triangles_.count;
+        std::uint32_t groups[Batch::kSize];
+        if (packets_ > 1) {
+            near.count = 0;
+            std::uint32_t whole = 0;
+            for (std::uint32_t i = 0; i < triangles_.count; ++i) {
+                const Slot slot = triangles_.slot[i];
+                const Floats depth = hidden(table_.planes[slot], centers_);
+                groups[near.count] = groups_ & ~(depth < -box_error_).bits();
+                whole |= (depth > box_error_).bits();
+                near.add(slot, groups[near.count] != 0 ? 1 : 0);
+            }
+            block_groups(whole & groups_);
+        } else {
+            near = triangles_;
+            std::fill(groups, groups + near.count, 1U);
+        }
+        for (std::uint32_t i = 0; i < near.count; ++i) {
+            const ShadowPlanes& planes = table_.planes[near.slot[i]];
+            for (std::uint32_t at = groups[i]; at != 0;) {
+                const int p = std::countr_zero(at) >> group_shift_;
+                at &= ~(group_mask_ << (p << group_shift_));
+                const Floats depth = hidden(planes, points_[p]);
+                const std::uint32_t perhaps = waiting_[p] & ~(depth < Floats(-plane_error_)).bits();
+                const std::uint32_t sure = perhaps & (depth > Floats(plane_error_)).bits();
+                waiting_[p] &= ~sure;
+                if (perhaps != sure)
+                    put_aside(near.slot[i], p, perhaps ^ sure, depth > Floats(0.0F));
+            }
+        }
+        triangles_.count = 0;
+    }
+
+    HWY_INLINE void test_round(Slot slot) {
+        const RoundShape& shape = job_.tables.round(slot);
+        const LightSide side = table_.round_sides.empty()
+                                   ? LightSide::kOutside
+                                   : table_.round_sides[slot - scene_.triangle_end()];
+        const bool sphere = slot < scene_.sphere_end();
+        std::uint32_t packets = alive_;
+        if (packets_ > 1) {
+            const RoundTest test(shape, centers_, center_ways_, round_box_error_);
+            const std::uint32_t perhaps = ~free(test, side, sphere);
+            if ((perhaps & groups_) == 0) return;
+            block_groups(blocked(test, side, sphere) & groups_);
+            packets = packets_of(perhaps & groups_);
+        }
+        for (; packets != 0; packets &= packets - 1)
+            test_round(slot, shape, side, sphere, std::countr_zero(packets));
+    }
+
+    HWY_INLINE void test_round(Slot slot, const RoundShape& shape, LightSide side, bool sphere,
+                               int p) {
+        const RoundTest test(shape, points_[p], ways_[p], Floats(round_error_));
+        const std::uint32_t own = clusters_.of_slot(first_ + 16 * p, slot) & waiting_[p];
+        std::uint32_t perhaps = waiting_[p] & ~own & ~free(test, side, sphere);
+        std::uint32_t sure = perhaps & blocked(test, side, sphere);
+        if (own != 0) {
+            // The way from the sphere itself enters it iff it points inwards.
+            const Floats margin =
+                mul_add(ways_[p].inverse, Floats(round_error_), Floats(round_error_));
+            if (!sphere)
+                perhaps |= own;
+            else if (side != LightSide::kInside)
+                perhaps |= own & ~(test.along < -margin).bits();
+            if (sphere && side == LightSide::kOutside) sure |= own & (test.along > margin).bits();
+        }
+        if (perhaps == 0) return;
+        waiting_[p] &= ~sure;
+        if (perhaps != sure)
+            put_aside(slot, p, perhaps & ~sure, without(test.crosses, test.behind | test.beyond));
+    }
+
+    static HWY_INLINE std::uint32_t free(const RoundTest& test, LightSide side, bool sphere) {
+        RayMask mask = test.passes | (test.outside & test.behind);
+        if (side == LightSide::kOutside) mask = mask | (test.outside & test.beyond);
+        if (side == LightSide::kInside && sphere) mask = mask | test.inside;
+        return mask.bits();
+    }
+    static HWY_INLINE std::uint32_t blocked(const RoundTest& test, LightSide side, bool sphere) {
+        if (!sphere || side == LightSide::kUnknown) return 0;
+        if (side == LightSide::kInside) return test.outside.bits();
+        const RayMask through = without(test.crosses & test.outside, test.behind | test.beyond);
+        return (through | test.inside).bits();
+    }
+
+    void block_groups(std::uint32_t groups) {
+        groups_ &= ~groups;
+        for (; groups != 0; groups &= groups - 1) {
+            const int group = std::countr_zero(groups);
+            if (by_fours_)
+                waiting_[group / 4] &= ~(0xfU << (group % 4 * 4));
+            else
+                waiting_[group] = 0;
+        }
+    }
+    HWY_INLINE std::uint32_t packets_of(std::uint32_t groups) const {
+        if (!by_fours_) return groups;
+        std::uint32_t packets = 0;
+        for (int p = 0; p < packets_; ++p) packets |= (groups >> (4 * p) & 0xf) != 0 ? 1U << p : 0;
+        return packets;
+    }
+    // Finds out what still waits.
+    HWY_INLINE void update() {
+        alive_ = 0;
+        for (int p = 0; p < packets_; ++p) alive_ |= waiting_[p] != 0 ? 1U << p : 0;
+        if (!by_fours_) groups_ &= alive_;
+    }
+    HWY_NOINLINE void put_aside(Slot slot, int p, std::uint32_t lanes, const RayMask& rounded) {
+        if (slot < scene_.triangle_end()) lanes &= ~clusters_.of_slot(first_ + 16 * p, slot);
+        if (!job_.redo_exactly) {
+            waiting_[p] &= ~(lanes & rounded.bits());
+            return;
+        }
+        for (; lanes != 0; lanes &= lanes - 1)
+            job_.open.push_back({clusters_.lane(first_ + 16 * p + std::countr_zero(lanes)), slot});
+    }
+
+    // The lanes that are still waiting are lit.
+    HWY_INLINE void finish(int p) {
+        const int first = first_ + 16 * p;
+        const std::uint32_t block = clusters_.lane(first) / 16;
+        if (clusters_.is_block(first)) {
+            lit_[block] = static_cast<std::uint16_t>(lit_[block] | waiting_[p]);
+            return;
+        }
+        for (std::uint32_t lanes = waiting_[p]; lanes != 0; lanes &= lanes - 1) {
+            const std::uint32_t lane = clusters_.lane(first + std::countr_zero(lanes));
+            lit_[lane / 16] = static_cast<std::uint16_t>(lit_[lane / 16] | 1U << lane % 16);
+        }
+    }
+
+    ShadowJob& job_;
+    const FastScene& scene_;
+    const ShadowTable& table_;
+    PointClusters clusters_;
+    TileMask& lit_;
+    bool rounds_;
+    float plane_error_;
+    float round_error_;
+
+    // The cluster that is being traced.
+    int first_ = 0;
+    int packets_ = 0;
+    bool by_fours_ = false;
+    int group_shift_ = 0;
+    std::uint32_t group_mask_ = 1;
+    std::uint32_t alive_ = 0;    // packets with lanes that wait
+    std::uint32_t groups_ = 0;   // groups of these
+    std::uint32_t waiting_[16];  // lanes that nothing has blocked yet
+    Points points_[16];
+    Ways ways_[16];
+    Points centers_;
+    Ways center_ways_;
+    Floats box_error_;
+    Floats round_box_error_;
+    Batch triangles_;  // waiting for their tests
+    Batch spheres_;
+    std::uint32_t enough_ = kFirstBatch;
+};
+
+void trace_shadows(ShadowJob& job, const Tile& tile, std::size_t light, const TileMask& wanted,
+                   TileMask& lit) {
+    ShadowTracer(job, tile, light, wanted, lit).run();
+}
+
+}  // namespace nuvo::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "fast/dispatch.h"
+
+namespace nuvo {
+
+ShadowStage::ShadowStage(const ShadowTables& tables, InstructionSet isa, bool redo_exactly)
+    : job_{tables, redo_exactly}, trace_(NUVO_FOR_ISA(isa, trace_shadows)) {}
+
+void ShadowStage::trace(const Tile& tile, std::size_t light, const TileMask& wanted,
+                        const Referee& referee, TileMask& lit) {
+    if (!job_.tables.scene().scene().lights[light].casts_shadow) {
+        std::copy(std::begin(wanted), std::end(wanted), std::begin(lit));
+        return;
+    }
+    std::fill(std::begin(lit), std::end(lit), std::uint16_t{0});
+    job_.open.clear();
+    trace_(job_, tile, light, wanted, lit);
+    for (const OpenShadow& open : job_.open) {
+        const std::uint32_t lane = open.lane;
+        const auto bit = static_cast<std::uint16_t>(1U << lane % 16);
+        if ((lit[lane / 16] & bit) == 0) continue;
+        const int at = static_cast<int>(lane);
+        if (referee.blocks(tile.x + lane_x(at), tile.y + lane_y(at), tile.slot[at], light,
+                           open.item))
+            lit[lane / 16] = static_cast<std::uint16_t>(lit[lane / 16] & ~bit);
+    }
+}
+
+}  // namespace nuvo
+#endif
