@@ -1,5 +1,6 @@
 #include "local_ray.h"
 
+#include <bit>
 #include <cmath>
 
 namespace nuvo {
@@ -8,8 +9,16 @@ namespace {
 constexpr std::uint32_t kRow = kWideLanes;  // floats, in WideNode
 constexpr std::uint32_t kToHigh = 3 * kRow;
 
+constexpr int kExponentPlace = 52;
+constexpr std::uint64_t kExponentBias = 1023;
+
 // The power of two that brings a positive normal number to [1, 2).
-double to_unit(double value) { return std::ldexp(1.0, -std::ilogb(value)); }
+double to_unit(double value) {
+    const std::uint64_t exponent = std::bit_cast<std::uint64_t>(value) >> kExponentPlace;
+    return std::bit_cast<double>((2 * kExponentBias - exponent) << kExponentPlace);
+}
+
+double larger(double a, double b) { return a > b ? a : b; }
 
 // The ray enters the box around 0 with this half width later than this, if it does. Axes along
 // which the ray hardly moves are left out.
@@ -19,7 +28,7 @@ double before_box(const Point3& o, const Vector3& d, double half) {
     for (int axis = 0; axis < 3; ++axis) {
         if (std::fabs(d[axis]) < kHardly) continue;
         const double near = d[axis] > 0 ? -half : half;
-        entry = std::fmax(entry, (near - o[axis]) / d[axis]);
+        entry = larger(entry, (near - o[axis]) / d[axis]);
     }
     return entry;
 }
@@ -50,32 +59,41 @@ LocalRay::LocalRay(const Ray& ray, const LocalFrame& frame, float reach) {
         }
     }
     behind = advance > 0 ? -0.25F : 0.0F;
-    signs = 0;
-    double sum = 0;
-    double margin = 0;
     for (int axis = 0; axis < 3; ++axis) {
         origin[axis] = o[axis];
         step[axis] = d[axis];
         direction[axis] = static_cast<float>(d[axis]);
-        sum += std::fabs(d[axis]);
-        const double size_on_axis = std::fmax(std::fabs(d[axis]), kLeastDirection);
-        inverse[axis] = static_cast<float>(std::copysign(1 / size_on_axis, d[axis]));
-        const double i = inverse[axis];
-        const double slack = kSlabRoundings * kFloatUnit * (reach + std::fabs(o[axis])) + error;
-        margin = std::fmax(margin, slack);
-        near_add[axis] = static_cast<float>(-o[axis] * i - slack * std::fabs(i));
-        far_add[axis] = static_cast<float>(-o[axis] * i + slack * std::fabs(i));
-        const std::uint32_t row = static_cast<std::uint32_t>(axis) * kRow;
-        const bool negative = std::signbit(d[axis]);
-        near_offset[axis] = row + (negative ? kToHigh : 0);
-        signs |= negative ? 1U << axis : 0U;
-        far_offset[axis] = row + (negative ? 0 : kToHigh);
     }
-    direction_sum = static_cast<float>(sum * (1 + 0x1p-22));
+    prepare_slabs(reach);
+    direction_sum = static_cast<float>((std::fabs(d.x) + std::fabs(d.y) + std::fabs(d.z)) *
+                                       (1 + 0x1p-22));
     square = static_cast<float>(dot(d, d));
     // A point of the ray at a box's entry lies within 2 margins of that box, which is to be less
     // than 2^14 units of the leaf's grid; and its error less than 2^-6 units.
-    least_unit = static_cast<float>(std::fmax(margin * 0x1p-13, error * 0x1p6));
+    const double margin =
+        kSlabRoundings * kFloatUnit * (reach + max_norm(Point3{origin[0], origin[1], origin[2]})) +
+        error;
+    least_unit = static_cast<float>(larger(margin * 0x1p-13, error * 0x1p6));
+}
+
+void LocalRay::prepare_slabs(float reach) {
+    signs = 0;
+    for (std::uint32_t axis = 0; axis < 3; ++axis) {
+        const std::uint32_t negative = std::signbit(step[axis]) ? 1 : 0;
+        const float size = std::fabs(direction[axis]);
+        const float bounded = size > kLeastDirection ? size : kLeastDirection;
+        const double i = 1 / bounded;
+        const double slack =
+            (kSlabRoundings * kFloatUnit * (reach + std::fabs(origin[axis])) + error) * i;
+        const double signed_i = negative != 0 ? -i : i;
+        const double at = -origin[axis] * signed_i;
+        inverse[axis] = static_cast<float>(signed_i);
+        near_add[axis] = static_cast<float>(at - slack);
+        far_add[axis] = static_cast<float>(at + slack);
+        signs |= negative << axis;
+        near_offset[axis] = axis * kRow + negative * kToHigh;
+        far_offset[axis] = axis * kRow + (1 - negative) * kToHigh;
+    }
 }
 
 }  // namespace nuvo

@@ -26,7 +26,7 @@ struct alignas(64) LocalRay {
     /// False where the numbers leave the range of the bounds: the ray is not to be walked.
     bool valid = false;
     /// Components of d are kept off 0 by this; s d stays as near to the ray as slabs are wide.
-    static constexpr double kLeastDirection = 0x1p-60;
+    static constexpr float kLeastDirection = 0x1p-60F;
 
     float inverse[3];
     float near_add[3];
@@ -47,6 +47,9 @@ struct alignas(64) LocalRay {
 
     LocalRay() = default;
     LocalRay(const Ray& ray, const LocalFrame& frame, float reach);
+
+  private:
+    void prepare_slabs(float reach);
 };
 
 }  // namespace nuvo

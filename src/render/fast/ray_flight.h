@@ -1,13 +1,14 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 
 #include "fast_scene.h"
-#include "local_ray.h"
+#include "wide_octree.h"
 
 // A ray under way. One ray alone waits for its own memory, comparisons and mispredicted branches
 // most of the time; so a thread keeps many in flight and gives each a step in turn, sorted into
@@ -23,6 +24,24 @@ struct RayCandidate {
     bool sure;  ///< the ray meets it, in front of the origin
 };
 
+/// Where the faces that a ray meets first and last are, in floats from WideNode::low, by axis.
+struct FacesOnWay {
+    std::uint32_t near[3];
+    std::uint32_t far[3];
+};
+constexpr std::array<FacesOnWay, 8> faces_by_signs() {
+    std::array<FacesOnWay, 8> faces{};
+    for (std::uint32_t signs = 0; signs < 8; ++signs)
+        for (std::uint32_t axis = 0; axis < 3; ++axis) {
+            const std::uint32_t negative = signs >> axis & 1;
+            faces[signs].near[axis] = static_cast<std::uint32_t>((axis + 3 * negative) * kWideLanes);
+            faces[signs].far[axis] =
+                static_cast<std::uint32_t>((axis + 3 * (1 - negative)) * kWideLanes);
+        }
+    return faces;
+}
+inline constexpr std::array<FacesOnWay, 8> kFacesBySigns = faces_by_signs();
+
 struct RayFlight {
     static constexpr std::size_t kMaxCandidates = 40;
     static constexpr std::uint32_t kLanded = ~std::uint32_t{0};
@@ -35,7 +54,6 @@ struct RayFlight {
         std::uint32_t waiting;       ///< one bit each
     };
 
-    LocalRay ray;
     std::size_t index = 0;  ///< among the batch's rays
     float best = 0;         ///< the nearest sure hit's upper bound
     std::uint32_t candidate_count = 0;

@@ -14,6 +14,7 @@
 #include <hwy/foreach_target.h>
 
 #include "fast/lanes.h"
+#include "fast/ray_block.h"
 #include "fast/single_ray_leaf.h"
 
 // A node's boxes are met from near to far, as in Embree's single-ray kernels (Wald et al. 2014),
@@ -75,11 +76,14 @@ class Flights {
     }
 
     // Lets the next ray of the batch take the place, if there is one.
-    void depart(RayFlight& flight, std::uint32_t number) {
+    HWY_INLINE void depart(RayFlight& flight, std::uint32_t number) {
         while (next_ < batch_.size()) {
             const std::size_t index = next_++;
-            flight.ray = LocalRay(batch_[index], rays_.scene().frame(), tree_.reach);
-            if (flight.ray.valid) {
+            RayBlock& block = blocks_[index / RayBlock::kRays];
+            const std::size_t lane = index % RayBlock::kRays;
+            if (lane == 0)
+                block.prepare(batch_.subspan(index), rays_.scene().frame(), tree_.reach);
+            if ((block.valid >> lane & 1) != 0) {
                 flight.start(index);
                 at_nodes_.add(number, true);
                 return;
@@ -91,24 +95,27 @@ class Flights {
     // One node: what the ray meets of it waits on a level of its own.
     HWY_INLINE void step(RayFlight& flight) const {
         const WideNode& node = tree_.nodes[flight.next];
-        const LocalRay& ray = flight.ray;
+        const RayBlock& ray = blocks_[flight.index / RayBlock::kRays];
+        const std::size_t lane = flight.index % RayBlock::kRays;
+        const auto signs = static_cast<std::uint32_t>(ray.signs[lane]);
+        const FacesOnWay& faces = kFacesBySigns[signs];
         Floats first(0.0F);
         Floats last(flight.best);
         for (int axis = 0; axis < 3; ++axis) {
-            const Floats inverse(ray.inverse[axis]);
-            first = max(mul_add(Floats::load(node.low[0] + ray.near_offset[axis]), inverse,
-                                Floats(ray.near_add[axis])),
+            const Floats inverse(ray.inverse[axis][lane]);
+            first = max(mul_add(Floats::load(node.low[0] + faces.near[axis]), inverse,
+                                Floats(ray.near_add[axis][lane])),
                         first);
-            last = min(mul_add(Floats::load(node.low[0] + ray.far_offset[axis]), inverse,
-                               Floats(ray.far_add[axis])),
+            last = min(mul_add(Floats::load(node.low[0] + faces.far[axis]), inverse,
+                               Floats(ray.far_add[axis][lane])),
                        last);
         }
-        const Ints order = lanes_of(node.order[ray.signs]);
+        const Ints order = lanes_of(node.order[signs]);
         const Floats entry = first.permuted(order);
         RayFlight::Level& level = flight.levels[flight.depth];
         entry.store(level.entry);
         level.child = node.child;
-        level.order = node.order[ray.signs];
+        level.order = node.order[signs];
         level.waiting = (entry <= last.permuted(order)).bits();
         flight.depth += level.waiting != 0 ? 1 : 0;
         flight.take_next();
@@ -126,28 +133,31 @@ class Flights {
         std::memcpy(&head, words, sizeof head);
         const Slot* const slots = words + kLeafHeadWords;
         const std::uint32_t copied = head.triangles + head.spheres;
-        if (head.unit < flight.ray.least_unit) {
+        const RayBlock& ray = blocks_[flight.index / RayBlock::kRays];
+        const std::size_t lane = flight.index % RayBlock::kRays;
+        if (head.unit < ray.least_unit[lane]) {
             add_open(flight, slots, copied + head.others);
             return;
         }
-        const RayAtLeaf at(flight.ray, head, flight.next_entry);
+        const RayAtLeaf at(ray, lane, head, flight.next_entry);
         const std::uint32_t* const data = slots + copied + head.others;
         const auto* const spheres = reinterpret_cast<const float*>(data);
         const auto* const corners =
             reinterpret_cast<const std::uint16_t*>(data + std::size_t{4} * head.spheres);
         for (std::uint32_t i = 0; i < head.triangles; i += kWideLanes)
             take(flight, test_triangles(at, corners + i, head.triangles, rays_.bounds_scale()),
-                 slots + i, head.triangles - i);
+                 ray.behind[lane], slots + i, head.triangles - i);
         for (std::uint32_t i = 0; i < head.spheres; i += kWideLanes)
-            take(flight, test_spheres(at, spheres + i, head.spheres, rays_.bounds_scale()),
-                 slots + head.triangles + i, head.spheres - i);
+            take(flight,
+                 test_spheres(at, ray, lane, spheres + i, head.spheres, rays_.bounds_scale()),
+                 ray.behind[lane], slots + head.triangles + i, head.spheres - i);
         if (head.others != 0) add_open(flight, slots + copied, head.others);
     }
 
-    HWY_INLINE void take(RayFlight& flight, const LeafHits& hits, const Slot* slots,
+    HWY_INLINE void take(RayFlight& flight, const LeafHits& hits, float origin, const Slot* slots,
                          std::uint32_t count) const {
         const std::uint32_t lanes = count < kWideLanes ? (1U << count) - 1 : 0xffffU;
-        const Floats behind(flight.ray.behind);
+        const Floats behind(origin);
         const RayMask nearer = hits.low <= Floats(flight.best);
         const RayMask ahead = hits.low > behind;
         const std::uint32_t sure = (hits.sure & nearer & ahead).bits() & lanes;
@@ -195,8 +205,10 @@ class Flights {
         flight.candidates[flight.candidate_count++] = candidate;
     }
     HWY_NOINLINE void decide(RayFlight& flight) const {
-        const auto exact = rays_.decide(batch_[flight.index], flight.ray,
-                                        {flight.candidates, flight.candidate_count});
+        const Ray& ray = batch_[flight.index];
+        const LocalRay local(ray, rays_.scene().frame(), tree_.reach);
+        const auto exact =
+            rays_.decide(ray, local, {flight.candidates, flight.candidate_count});
         flight.candidate_count = 0;
         if (!exact) return;
         flight.candidates[flight.candidate_count++] = *exact;
@@ -224,6 +236,7 @@ class Flights {
     Queue at_nodes_;
     Queue at_leaves_;
     RayFlight flights_[kFlights];
+    RayBlock blocks_[kRayBatch / RayBlock::kRays];
 };
 
 void walk_rays(const SingleRays& rays, std::span<const Ray> batch, Slot* found) {
@@ -243,18 +256,23 @@ SingleRays::SingleRays(const FastScene& scene, InstructionSet isa, bool redo_exa
     : scene_(scene),
       kernel_(scene.scene(), scene.primitives(), std::nullopt),
       tree_(scene),
+      roots_(resolved(isa)),
       bounds_scale_(redo_exactly ? 1.0F : 0.0F),
-      walk_(NUVO_FOR_ISA(resolved(isa), walk_rays)) {}
+      walk_(NUVO_FOR_ISA(resolved(isa), walk_rays)) {
+    for (const Object& object : scene.scene().objects) {
+        const auto* const mesh = std::get_if<TriangleMesh>(&object.shape);
+        meshes_.push_back({mesh ? mesh->positions.data() : nullptr,
+                           mesh ? mesh->triangles.data() : nullptr, object.shape_index});
+    }
+}
 
 std::vector<RayAnswer> SingleRays::closest_hits(std::span<const Ray> rays) const {
-    std::vector<RayAnswer> answers;
-    answers.reserve(rays.size());
-    constexpr std::size_t kBatch = 1024;
-    std::array<Slot, kBatch> found;
-    for (std::size_t first = 0; first < rays.size(); first += kBatch) {
-        const auto batch = rays.subspan(first, std::min(kBatch, rays.size() - first));
+    std::vector<RayAnswer> answers(rays.size());
+    std::array<Slot, kRayBatch> found;
+    for (std::size_t first = 0; first < rays.size(); first += kRayBatch) {
+        const auto batch = rays.subspan(first, std::min(kRayBatch, rays.size() - first));
         walk_(*this, batch, found.data());
-        for (std::size_t i = 0; i < batch.size(); ++i) answers.push_back(answer(batch[i], found[i]));
+        answer(batch, found.data(), answers.data() + first);
     }
     return answers;
 }
@@ -279,18 +297,42 @@ std::optional<RayCandidate> SingleRays::decide(const Ray& ray, const LocalRay& l
     return RayCandidate{static_cast<float>(s - slack), static_cast<float>(s + slack), slot, true};
 }
 
-RayAnswer SingleRays::answer_for(const std::optional<Kernel::Hit>& hit) const {
-    RayAnswer answer;
-    answer.t = std::numeric_limits<double>::infinity();
-    if (!hit) return answer;
-    const PrimitiveSource& source = kernel_.source(hit->primitive);
-    return {true, scene_.scene().objects[source.object].shape_index, source.triangle,
-            hit->root.t};
+double SingleRays::root_of(const Ray& ray, Slot slot) const {
+    return kernel_.hit_of(kernel_.prepare(ray), scene_.id(slot))->root.t;
 }
 
-RayAnswer SingleRays::answer(const Ray& ray, Slot slot) const {
-    if (slot == kNoSlot) return answer_for(std::nullopt);
-    return answer_for(kernel_.hit_of(kernel_.prepare(ray), scene_.id(slot)));
+void SingleRays::answer(std::span<const Ray> rays, const Slot* found, RayAnswer* answers) const {
+    TriangleRoots roots;
+    std::array<std::size_t, TriangleRoots::kCount> ray_of;
+    std::size_t count = 0;
+    const auto finish = [&] {
+        roots_.find(roots, count);
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::size_t ray = ray_of[i];
+            const bool known = (roots.found >> i & 1) != 0;
+            answers[ray].t = known ? roots.t[i] : root_of(rays[ray], found[ray]);
+        }
+        count = 0;
+    };
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        if (found[i] == kNoSlot) {
+            answers[i].t = std::numeric_limits<double>::infinity();
+            continue;
+        }
+        const PrimitiveSource& source = scene_.source(found[i]);
+        const MeshPlace& mesh = meshes_[source.object];
+        answers[i] = {true, mesh.shape, source.triangle, 0};
+        if (found[i] >= scene_.triangle_end()) {
+            answers[i].t = root_of(rays[i], found[i]);
+            continue;
+        }
+        const IndexTriple& corners = mesh.triangles[source.triangle];
+        ray_of[count] = i;
+        roots.set(count++, rays[i], mesh.positions[corners[0]], mesh.positions[corners[1]],
+                  mesh.positions[corners[2]]);
+        if (count == TriangleRoots::kCount) finish();
+    }
+    finish();
 }
 
 Slot SingleRays::by_force(const Ray& ray) const {

@@ -11,11 +11,15 @@
 #include "local_ray.h"
 #include "nuvo/render/fast.h"
 #include "ray_flight.h"
+#include "triangle_roots.h"
 #include "wide_octree.h"
 
 // Rays that have nothing in common, one at a time: 16 voxels or 16 primitives to a step.
 
 namespace nuvo {
+
+/// So many rays are walked before their answers are made.
+inline constexpr std::size_t kRayBatch = 1024;
 
 /// The closest hits of arbitrary rays. Not for several threads at once.
 class SingleRays {
@@ -44,12 +48,21 @@ class SingleRays {
     Slot by_force(const Ray& ray) const;
 
   private:
-    RayAnswer answer(const Ray& ray, Slot slot) const;
-    RayAnswer answer_for(const std::optional<Kernel::Hit>& hit) const;
+    // Where the triangles of an object are.
+    struct MeshPlace {
+        const Point3* positions;
+        const IndexTriple* triangles;
+        std::int64_t shape;
+    };
+
+    void answer(std::span<const Ray> rays, const Slot* found, RayAnswer* answers) const;
+    double root_of(const Ray& ray, Slot slot) const;
 
     const FastScene& scene_;
     Kernel kernel_;
     WideOctree tree_;
+    std::vector<MeshPlace> meshes_;  // by object
+    TriangleRootStage roots_;
     float bounds_scale_;
     void (*walk_)(const SingleRays&, std::span<const Ray>, Slot*);
 };

@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "lanes.h"
-#include "local_ray.h"
+#include "ray_block.h"
 #include "wide_octree.h"
 
 // One ray against 16 primitives of a leaf. The ray is seen from the point where it enters the
@@ -53,17 +53,18 @@ struct Vector16 {
 
 /// A ray at one leaf.
 struct RayAtLeaf {
-    HWY_INLINE RayAtLeaf(const LocalRay& ray, const WideLeafHead& head, float entry_at)
-        : local(ray), entry(entry_at), unit(head.unit) {
+    HWY_INLINE RayAtLeaf(const RayBlock& block, std::size_t lane, const WideLeafHead& head,
+                         float entry_at)
+        : direction_sum(block.direction_sum[lane]), entry(entry_at), unit(head.unit) {
         const double inverse = 1 / static_cast<double>(head.unit);
         for (int axis = 0; axis < 3; ++axis) {
-            const double p = ray.origin[axis] + static_cast<double>(entry) * ray.step[axis];
+            const double p = block.origin[axis][lane] +
+                             static_cast<double>(entry) * block.step[axis][lane];
             from[axis] = static_cast<float>(p);
             at[axis] = static_cast<float>((p - static_cast<double>(head.base[axis])) * inverse);
         }
-    }
-    HWY_INLINE Vector16 direction() const {
-        return {Floats(local.direction[0]), Floats(local.direction[1]), Floats(local.direction[2])};
+        direction = {Floats(block.direction[0][lane]), Floats(block.direction[1][lane]),
+                     Floats(block.direction[2][lane])};
     }
     /// Bounds on s from `along`, known within `error`, both in units of the grid.
     HWY_INLINE void set_interval(LeafHits& hits, const Floats& along, const Floats& error) const {
@@ -75,7 +76,8 @@ struct RayAtLeaf {
         hits.high = s + slack;
     }
 
-    const LocalRay& local;
+    Vector16 direction;
+    float direction_sum;  ///< bounds |d.x| + |d.y| + |d.z|
     float entry;
     float unit;
     float from[3];  ///< the point of entry, local
@@ -104,14 +106,14 @@ HWY_INLINE LeafHits test_triangles(const RayAtLeaf& ray, const std::uint16_t* co
     const Vector16 a = load_corner(corners, stride, 0, ray);
     const Vector16 b = load_corner(corners, stride, 1, ray);
     const Vector16 c = load_corner(corners, stride, 2, ray);
-    const Vector16 d = ray.direction();
+    const Vector16& d = ray.direction;
     const Vector16 dc = cross(d, c);
     const Floats u = dot(b, dc);
     const Floats v = -dot(a, dc);
     const Floats w = dot(a, cross(d, b));
     constexpr float kEdge =
         4 * kCorner * kReach + 2 * kCorner * kCorner + 18 * kFloatUnit * kReach * kReach;
-    const Floats edge_error(scale * kEdge * (1 + 8 * kFloatUnit) * ray.local.direction_sum);
+    const Floats edge_error(scale * kEdge * (1 + 8 * kFloatUnit) * ray.direction_sum);
     const Floats least = min(u, min(v, w));
     const Floats most = max(u, max(v, w));
     const RayMask inside = (least > edge_error) | (most < -edge_error);
@@ -124,7 +126,7 @@ HWY_INLINE LeafHits test_triangles(const RayAtLeaf& ray, const std::uint16_t* co
     const Floats slope = dot(n, d);
     const Floats k = (max(norm(e1), norm(e2)) + Floats(kCorner)) * Floats(scale * 9 * kCorner);
     const Floats height_error = mul_add(k, sum(a), sum(n) * Floats(scale * kCorner));
-    const Floats slope_error = k * Floats(ray.local.direction_sum);
+    const Floats slope_error = k * Floats(ray.direction_sum);
     const Floats size = abs(slope) - slope_error;
     const RayMask crossing = size > Floats(0.0F);
     const Floats along = height / slope;
@@ -147,32 +149,32 @@ HWY_INLINE LeafHits test_triangles(const RayAtLeaf& ray, const std::uint16_t* co
 /// f = p - c is off by e = 3 u (p and c, at most 1.01 each, and the difference) + 2 u |f|. What is
 /// left of it across d, l = f - (f.d / d.d) d, is off by e and 16 roundings of |f| <= 16 u |f|; l.l
 /// by 2 |l| that + that^2.
-HWY_INLINE LeafHits test_spheres(const RayAtLeaf& ray, const float* values, std::size_t stride,
-                                 float scale) {
+HWY_INLINE LeafHits test_spheres(const RayAtLeaf& ray, const RayBlock& block, std::size_t lane,
+                                 const float* values, std::size_t stride, float scale) {
     const Vector16 f = {Floats(ray.from[0]) - Floats::load(values),
                         Floats(ray.from[1]) - Floats::load(values + stride),
                         Floats(ray.from[2]) - Floats::load(values + 2 * stride)};
     const Floats r = Floats::load(values + 3 * stride);
-    const Vector16 d = ray.direction();
-    const Floats inverse(1 / ray.local.square);
+    const Vector16& d = ray.direction;
+    const Floats inverse(1 / block.square[lane]);
     const Floats middle = -dot(f, d) * inverse;
     const Vector16 l = {mul_add(middle, d.x, f.x), mul_add(middle, d.y, f.y),
                         mul_add(middle, d.z, f.z)};
     const Floats across = dot(l, l);
     const Floats depth = mul_add(r, r, -across);
     const Floats error = mul_add(sum(f), Floats(scale * 32 * kFloatUnit),
-                                 Floats(scale * (8 * kFloatUnit + static_cast<float>(ray.local.error))));
+                                 Floats(scale * (8 * kFloatUnit + block.error[lane])));
     const Floats depth_error = mul_add(mul_add(sum(l), Floats(2.0F), error * Floats(3.0F)), error,
                                        mul_add(r, r, across) * Floats(scale * 16 * kFloatUnit));
     const RayMask meets = depth > depth_error;
     const RayMask misses = depth < -depth_error;
     const Floats half = sqrt(max(depth, Floats(0.0F)) * inverse);
     // sqrt(depth +- error) differs by less than error / sqrt(depth); |d| >= 1.
-    const Floats half_error = select(meets, depth_error / (half * Floats(ray.local.square)) + half * Floats(8 * kFloatUnit), sqrt(depth_error + depth_error)) ;
+    const Floats half_error = select(meets, depth_error / (half * Floats(block.square[lane])) + half * Floats(8 * kFloatUnit), sqrt(depth_error + depth_error)) ;
     const Floats slack = half_error + error + (abs(middle) + Floats(ray.entry) + half) * Floats(scale * 8 * kFloatUnit);
     const Floats near = Floats(ray.entry) + (middle - half);
     const Floats far = Floats(ray.entry) + (middle + half);
-    const Floats behind(ray.local.behind);
+    const Floats behind(block.behind[lane]);
     const RayMask near_ahead = near - slack > behind;
     const RayMask near_behind = near + slack < behind;
     const RayMask far_ahead = far - slack > behind;
