@@ -103,6 +103,13 @@ struct Lanes : LaneShape<T, N> {
             v.part[i] = hn::LoadU(Tag(), from + i * Shape::kPart);
         return v;
     }
+    /// 0 in the other lanes.
+    static HWY_INLINE Lanes load(const T* from, const Mask& mask) {
+        Lanes v;
+        for (std::size_t i = 0; i < Shape::kParts; ++i)
+            v.part[i] = hn::MaskedLoad(mask.part[i], Tag(), from + i * Shape::kPart);
+        return v;
+    }
     /// From 16-bit numbers.
     static HWY_INLINE Lanes from_shorts(const std::uint16_t* from) requires(
         std::is_same_v<T, float>) {
@@ -150,16 +157,18 @@ struct Lanes : LaneShape<T, N> {
         }
         return v;
     }
-    /// Lane i is lane index[i] of this; index[i] < N.
+    /// Lane i is lane index[i] modulo N of this.
     HWY_INLINE Lanes permuted(const Lanes<std::int32_t, N>& index) const requires(sizeof(T) == 4) {
         Lanes v;
         if constexpr (Shape::kParts == 1) {
-            v.part[0] = hn::TableLookupLanes(
-                part[0], hn::IndicesFromVec(Tag(), index.part[0]));
+            const auto wrapped = HWY_TARGET == HWY_AVX3
+                                     ? index.part[0]  // as the instruction does
+                                     : (index & Lanes<std::int32_t, N>(N - 1)).part[0];
+            v.part[0] = hn::TableLookupLanes(part[0], hn::IndicesFromVec(Tag(), wrapped));
         } else {
             alignas(64) T values[N];
             store(values);
-            v = gather(values, index);
+            v = gather(values, index & Lanes<std::int32_t, N>(N - 1));
         }
         return v;
     }

@@ -44,23 +44,23 @@ inline constexpr std::array<FacesOnWay, 8> kFacesBySigns = faces_by_signs();
 
 struct RayFlight {
     static constexpr std::size_t kMaxCandidates = 40;
-    static constexpr std::uint32_t kLanded = ~std::uint32_t{0};
+    static constexpr std::uint32_t kLanded = 1U << 30;
 
-    /// What waits of a node, in the order of the ray's direction (WideNode::order).
+    /// What waits of a node, from near to far.
     struct alignas(64) Level {
         float entry[kWideLanes];  ///< where the ray enters the boxes, never negative
-        const std::uint32_t* child;  ///< the node's, by lane
-        const std::uint32_t* order;  ///< the node's for this ray
-        std::uint32_t waiting;       ///< one bit each
+        std::uint32_t child[kWideLanes];
+        std::uint32_t waiting;  ///< one bit each
+        std::uint32_t unused[15];
     };
 
-    std::size_t index = 0;  ///< among the batch's rays
-    float best = 0;         ///< the nearest sure hit's upper bound
-    std::uint32_t candidate_count = 0;
-    std::uint32_t depth = 0;  ///< levels with something waiting, the lowest included
     std::uint32_t next = 0;   ///< what comes next (WideNode::child), or kLanded
     float next_entry = 0;     ///< where the ray enters it
-    /// The first one only holds kLanded.
+    float best = 0;           ///< the nearest sure hit's upper bound
+    std::uint32_t candidate_count = 0;
+    Level* top = nullptr;     ///< the first free level; something waits in each below it
+    std::size_t index = 0;    ///< among the batch's rays
+    /// The first one holds only kLanded.
     Level levels[CompactOctree::kMaxDepth + 2];
     RayCandidate candidates[kMaxCandidates];
 
@@ -69,24 +69,22 @@ struct RayFlight {
         index = ray_index;
         best = std::numeric_limits<float>::infinity();
         candidate_count = 0;
-        static constexpr std::uint32_t kGround[2] = {kLanded, 0};
         levels[0].entry[0] = 0;
-        levels[0].child = kGround;
-        levels[0].order = kGround + 1;
+        levels[0].child[0] = kLanded;
         levels[0].waiting = 1;
-        depth = 1;
+        top = levels + 1;
         next = 0;
         next_entry = 0;
     }
 
-    /// Takes the nearest of what waits highest into `next`; hardly a branch depends on a ray.
+    /// Takes the nearest of what waits highest into `next`; no branch depends on the ray.
     void take_next() {
-        Level& level = levels[depth - 1];
-        const auto number = static_cast<unsigned>(std::countr_zero(level.waiting));
-        level.waiting &= level.waiting - 1;
-        depth -= level.waiting == 0 ? 1 : 0;
-        next_entry = level.entry[number];
-        next = level.child[level.order[number & 1] >> (4 * (number / 2)) & 15];
+        Level* const level = top - 1;
+        const auto number = static_cast<std::uint32_t>(std::countr_zero(level->waiting));
+        level->waiting &= level->waiting - 1;
+        top -= static_cast<std::ptrdiff_t>(level->waiting == 0);
+        next_entry = level->entry[number];
+        next = level->child[number];
     }
 
     void drop_behind_best() {

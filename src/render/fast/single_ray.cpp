@@ -26,25 +26,28 @@ namespace nuvo::HWY_NAMESPACE {
 
 class Flights {
   public:
-    static constexpr std::uint32_t kFlights = 8;
+    static constexpr std::uint32_t kFlights = 32;
 
     Flights(const SingleRays& rays, std::span<const Ray> batch, Slot* found)
         : rays_(rays), tree_(rays.tree()), batch_(batch), found_(found) {}
 
     void run() {
-        for (std::uint32_t i = 0; i < kFlights; ++i) depart(flights_[i], i);
+        for (RayFlight& flight : flights_) depart(flight);
         while (at_nodes_.count + at_leaves_.count > 0) {
-            for (std::uint32_t count = at_nodes_.restart(), i = 0; i < count; ++i) {
-                const std::uint32_t number = at_nodes_.flight[i];
-                step(flights_[number]);
-                queue(number);
+            // A few steps at a leaf or at a landing, with some left, would hardly overlap.
+            do {
+                step_all();
+            } while (at_nodes_.count >= kFlights / 2);
+            for (std::size_t count = at_leaves_.restart(), i = 0; i < count; ++i) {
+                RayFlight& flight = *at_leaves_.flight[i];
+                test_leaf(flight);
+                flight.take_next();
+                queue(flight);
             }
-            if (at_leaves_.count * 2 < kFlights && at_nodes_.count > 0) continue;
-            for (std::uint32_t count = at_leaves_.restart(), i = 0; i < count; ++i) {
-                const std::uint32_t number = at_leaves_.flight[i];
-                test_leaf(flights_[number]);
-                flights_[number].take_next();
-                queue(number);
+            for (std::size_t count = landed_.restart(), i = 0; i < count; ++i) {
+                RayFlight& flight = *landed_.flight[i];
+                land(flight);
+                depart(flight);
             }
         }
     }
@@ -52,31 +55,47 @@ class Flights {
   private:
     static constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-    // The numbers of flights in one state. Read from the front while it is filled anew.
+    // The flights in one state. Read from the front while it is filled anew.
     struct Queue {
-        std::uint32_t count = 0;
-        std::uint32_t flight[kFlights + 1];
-        HWY_INLINE std::uint32_t restart() { return std::exchange(count, 0U); }
-        HWY_INLINE void add(std::uint32_t number, bool really) {
-            flight[count] = number;
-            count += really ? 1 : 0;
+        std::size_t count = 0;
+        RayFlight* flight[kFlights + 1];
+        HWY_INLINE std::size_t restart() { return std::exchange(count, std::size_t{0}); }
+        HWY_INLINE void add(RayFlight& one, std::size_t once_or_not) {
+            flight[count] = &one;
+            count += once_or_not;
         }
     };
 
-    HWY_INLINE void queue(std::uint32_t number) {
-        RayFlight& flight = flights_[number];
-        if (flight.next == RayFlight::kLanded) {
-            land(flight);
-            depart(flight, number);
-            return;
+    HWY_NOINLINE void step_all() {
+        for (std::size_t count = at_nodes_.restart(), i = 0; i < count; ++i) {
+            RayFlight& flight = *at_nodes_.flight[i];
+            step(flight);
+            queue(flight);
         }
-        const bool leaf = (flight.next & WideOctree::kLeaf) != 0;
-        at_leaves_.add(number, leaf);
-        at_nodes_.add(number, !leaf);
+    }
+
+    // By arithmetic: branches here would be coin tosses.
+    HWY_INLINE void queue(RayFlight& flight) {
+        static_assert(WideOctree::kLeaf == 1U << 31 && RayFlight::kLanded == 1U << 30);
+        const std::size_t next = flight.next;
+        const std::size_t leaf = next >> 31;
+        const std::size_t landed = next >> 30 & ~(leaf << 1 | leaf);
+        at_leaves_.add(flight, leaf);
+        landed_.add(flight, landed);
+        at_nodes_.add(flight, 1 - leaf - landed);
+        if (!prefetches_) return;
+        const auto at_leaf = reinterpret_cast<std::uintptr_t>(tree_.leaves.data()) +
+                             (next & ~std::size_t{WideOctree::kLeaf}) * sizeof(std::uint32_t);
+        const auto at_node = reinterpret_cast<std::uintptr_t>(tree_.nodes.data()) +
+                             (next & ~std::size_t{RayFlight::kLanded}) * sizeof(WideNode);
+        const std::uintptr_t place = ((at_leaf ^ at_node) & -leaf) ^ at_node;
+        constexpr std::size_t kLine = 64;
+        for (std::size_t at = 0; at < sizeof(WideNode); at += kLine)
+            __builtin_prefetch(reinterpret_cast<const char*>(place + at));
     }
 
     // Lets the next ray of the batch take the place, if there is one.
-    HWY_INLINE void depart(RayFlight& flight, std::uint32_t number) {
+    HWY_INLINE void depart(RayFlight& flight) {
         while (next_ < batch_.size()) {
             const std::size_t index = next_++;
             RayBlock& block = blocks_[index / RayBlock::kRays];
@@ -85,7 +104,7 @@ class Flights {
                 block.prepare(batch_.subspan(index), rays_.scene().frame(), tree_.reach);
             if ((block.valid >> lane & 1) != 0) {
                 flight.start(index);
-                at_nodes_.add(number, true);
+                at_nodes_.add(flight, 1);
                 return;
             }
             found_[index] = rays_.by_force(batch_[index]);
@@ -112,18 +131,20 @@ class Flights {
         }
         const Ints order = lanes_of(node.order[signs]);
         const Floats entry = first.permuted(order);
-        RayFlight::Level& level = flight.levels[flight.depth];
+        RayFlight::Level& level = *flight.top;
         entry.store(level.entry);
-        level.child = node.child;
-        level.order = node.order[signs];
-        level.waiting = (entry <= last.permuted(order)).bits();
-        flight.depth += level.waiting != 0 ? 1 : 0;
+        Ints::load(reinterpret_cast<const std::int32_t*>(node.child))
+            .permuted(order)
+            .store(reinterpret_cast<std::int32_t*>(level.child));
+        const std::uint32_t met = (entry <= last.permuted(order)).bits();
+        level.waiting = met;
+        flight.top += static_cast<std::ptrdiff_t>(met != 0);
         flight.take_next();
     }
     static HWY_INLINE Ints lanes_of(const std::uint32_t* order) {
         alignas(64) static constexpr std::int32_t kShift[kWideLanes] = {
             0, 0, 4, 4, 8, 8, 12, 12, 16, 16, 20, 20, 24, 24, 28, 28};
-        return (Ints::pairs(order) >> Ints::load(kShift)) & Ints(15);
+        return Ints::pairs(order) >> Ints::load(kShift);
     }
 
     HWY_INLINE void test_leaf(RayFlight& flight) const {
@@ -149,7 +170,8 @@ class Flights {
                  ray.behind[lane], slots + i, head.triangles - i);
         for (std::uint32_t i = 0; i < head.spheres; i += kWideLanes)
             take(flight,
-                 test_spheres(at, ray, lane, spheres + i, head.spheres, rays_.bounds_scale()),
+                 test_spheres(at, ray, lane, spheres + i, head.spheres, head.spheres - i,
+                              rays_.bounds_scale()),
                  ray.behind[lane], slots + head.triangles + i, head.spheres - i);
         if (head.others != 0) add_open(flight, slots + copied, head.others);
     }
@@ -181,15 +203,14 @@ class Flights {
             add(flight, {low[lane], high[lane], slots[lane], is_sure});
             if (is_sure) flight.best = std::min(flight.best, high[lane]);
         }
-        std::uint32_t depth = 1;
-        for (std::uint32_t i = 1; i < flight.depth; ++i) {
-            RayFlight::Level& level = flight.levels[i];
-            level.waiting &= (Floats::load(level.entry) <= Floats(flight.best)).bits();
-            if (level.waiting == 0) continue;
-            if (depth != i) flight.levels[depth] = level;
-            ++depth;
+        RayFlight::Level* free = flight.levels + 1;
+        for (RayFlight::Level* level = free; level != flight.top; ++level) {
+            level->waiting &= (Floats::load(level->entry) <= Floats(flight.best)).bits();
+            if (level->waiting == 0) continue;
+            if (level != free) *free = *level;
+            ++free;
         }
-        flight.depth = depth;
+        flight.top = free;
     }
 
     HWY_NOINLINE void add_open(RayFlight& flight, const Slot* slots, std::uint32_t count) const {
@@ -232,9 +253,13 @@ class Flights {
     const WideOctree& tree_;
     std::span<const Ray> batch_;
     Slot* found_;
+    // Asking for a voxel's memory when it is chosen pays only where the caches cannot hold them all.
+    static constexpr std::size_t kCached = 1 << 20;
+    const bool prefetches_ = tree_.memory_bytes() > kCached;
     std::size_t next_ = 0;
     Queue at_nodes_;
     Queue at_leaves_;
+    Queue landed_;
     RayFlight flights_[kFlights];
     RayBlock blocks_[kRayBatch / RayBlock::kRays];
 };

@@ -127,13 +127,16 @@ HWY_INLINE LeafHits test_triangles(const RayAtLeaf& ray, const std::uint16_t* co
     const Floats k = (max(norm(e1), norm(e2)) + Floats(kCorner)) * Floats(scale * 9 * kCorner);
     const Floats height_error = mul_add(k, sum(a), sum(n) * Floats(scale * kCorner));
     const Floats slope_error = k * Floats(ray.direction_sum);
-    const Floats size = abs(slope) - slope_error;
-    const RayMask crossing = size > Floats(0.0F);
-    const Floats along = height / slope;
+    const Floats inverse = Floats(1.0F) / slope;
+    const Floats along = height * inverse;
+    // 1 / (1 - share) <= 1 + 2 share for a share of at most 1/2.
+    const Floats share = slope_error * abs(inverse);
+    const RayMask crossing = share < Floats(0.5F);
     LeafHits hits;
-    // Room for the roundings of the bound itself.
-    const Floats error =
-        mul_add(abs(along), slope_error, height_error) / size * Floats(1 + 16 * kFloatUnit);
+    // Room for the roundings of the bound itself, and of the product above.
+    const Floats error = mul_add(abs(along), slope_error, height_error) * abs(inverse) *
+                             mul_add(share, Floats(2.0F), Floats(1 + 16 * kFloatUnit)) +
+                         abs(along) * Floats(4 * kFloatUnit);
     ray.set_interval(hits, along, error);
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
     hits.low = select(crossing, hits.low, Floats(-kInfinity));
@@ -150,11 +153,14 @@ HWY_INLINE LeafHits test_triangles(const RayAtLeaf& ray, const std::uint16_t* co
 /// left of it across d, l = f - (f.d / d.d) d, is off by e and 16 roundings of |f| <= 16 u |f|; l.l
 /// by 2 |l| that + that^2.
 HWY_INLINE LeafHits test_spheres(const RayAtLeaf& ray, const RayBlock& block, std::size_t lane,
-                                 const float* values, std::size_t stride, float scale) {
-    const Vector16 f = {Floats(ray.from[0]) - Floats::load(values),
-                        Floats(ray.from[1]) - Floats::load(values + stride),
-                        Floats(ray.from[2]) - Floats::load(values + 2 * stride)};
-    const Floats r = Floats::load(values + 3 * stride);
+                                 const float* values, std::size_t stride, std::uint32_t count,
+                                 float scale) {
+    // What stands behind a leaf is not to be taken for a float: it may be a slow, subnormal one.
+    const RayMask present = RayMask::from_bits(count < kWideLanes ? (1U << count) - 1 : 0xffffU);
+    const Vector16 f = {Floats(ray.from[0]) - Floats::load(values, present),
+                        Floats(ray.from[1]) - Floats::load(values + stride, present),
+                        Floats(ray.from[2]) - Floats::load(values + 2 * stride, present)};
+    const Floats r = Floats::load(values + 3 * stride, present);
     const Vector16& d = ray.direction;
     const Floats inverse(1 / block.square[lane]);
     const Floats middle = -dot(f, d) * inverse;
