@@ -161,12 +161,18 @@ FastScene::FastScene(const Scene& scene, const Primitives& primitives, OctreeTyp
         for (PrimitiveId id = 0; id < slot_end_; ++id)
             ids_[next[kind_of(scene.objects[primitives.sources[id].object])]++] = id;
     }
+    octree_ =
+        octree(type == OctreeType::kUniform ? CutRule::kSpatial : CutRule::kSweep, {}, threads);
+}
+
+CompactOctree FastScene::octree(CutRule rule, const CompactCosts& costs, int threads) const {
     const LocalItems items = LocalItemsMaker(*this).make(threads);
     CompactBuildOptions options;
-    options.rule = type == OctreeType::kUniform ? CutRule::kSpatial : CutRule::kSweep;
+    options.rule = rule;
+    options.costs = costs;
     options.overlaps = octant_test(items);
     options.threads = threads;
-    octree_ = build_compact_octree(items.boxes, options);
+    return build_compact_octree(items.boxes, options);
 }
 
 }  // namespace nuvo

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "nuvo/math/bounds.h"
-#include "nuvo/octree/compact.h"
+#include "nuvo/octree/compact_build.h"
 #include "nuvo/render/fast.h"
 #include "nuvo/render/primitives.h"
 #include "nuvo/scene/scene.h"
@@ -38,6 +38,8 @@ class FastScene {
     const Primitives& primitives() const { return primitives_; }
     const LocalFrame& frame() const { return frame_; }
     const CompactOctree& octree() const { return octree_; }
+    /// Another one, for other work.
+    CompactOctree octree(CutRule rule, const CompactCosts& costs, int threads) const;
 
     Slot triangle_end() const { return triangle_end_; }
     Slot sphere_end() const { return sphere_end_; }

@@ -59,6 +59,10 @@ struct RayFlight {
     float best = 0;           ///< the nearest sure hit's upper bound
     std::uint32_t candidate_count = 0;
     Level* top = nullptr;     ///< the first free level; something waits in each below it
+    const void* block = nullptr;  ///< the ray's RayBlock,
+    std::size_t lane = 0;         ///< and its lane in it
+    const FacesOnWay* faces = nullptr;
+    std::size_t signs = 0;    ///< of the direction: which of WideNode::order
     std::size_t index = 0;    ///< among the batch's rays
     /// The first one holds only kLanded.
     Level levels[CompactOctree::kMaxDepth + 2];

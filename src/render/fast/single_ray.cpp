@@ -66,10 +66,13 @@ class Flights {
         }
     };
 
+    // In two passes, so that none waits for what it has just computed itself.
     HWY_NOINLINE void step_all() {
-        for (std::size_t count = at_nodes_.restart(), i = 0; i < count; ++i) {
+        const std::size_t count = at_nodes_.restart();
+        for (std::size_t i = 0; i < count; ++i) step(*at_nodes_.flight[i]);
+        for (std::size_t i = 0; i < count; ++i) {
             RayFlight& flight = *at_nodes_.flight[i];
-            step(flight);
+            flight.take_next();
             queue(flight);
         }
     }
@@ -104,6 +107,10 @@ class Flights {
                 block.prepare(batch_.subspan(index), rays_.scene().frame(), tree_.reach);
             if ((block.valid >> lane & 1) != 0) {
                 flight.start(index);
+                flight.block = &block;
+                flight.lane = lane;
+                flight.signs = static_cast<std::size_t>(block.signs[lane]);
+                flight.faces = &kFacesBySigns[flight.signs];
                 at_nodes_.add(flight, 1);
                 return;
             }
@@ -114,10 +121,9 @@ class Flights {
     // One node: what the ray meets of it waits on a level of its own.
     HWY_INLINE void step(RayFlight& flight) const {
         const WideNode& node = tree_.nodes[flight.next];
-        const RayBlock& ray = blocks_[flight.index / RayBlock::kRays];
-        const std::size_t lane = flight.index % RayBlock::kRays;
-        const auto signs = static_cast<std::uint32_t>(ray.signs[lane]);
-        const FacesOnWay& faces = kFacesBySigns[signs];
+        const RayBlock& ray = *static_cast<const RayBlock*>(flight.block);
+        const std::size_t lane = flight.lane;
+        const FacesOnWay& faces = *flight.faces;
         Floats first(0.0F);
         Floats last(flight.best);
         for (int axis = 0; axis < 3; ++axis) {
@@ -129,7 +135,7 @@ class Flights {
                                Floats(ray.far_add[axis][lane])),
                        last);
         }
-        const Ints order = lanes_of(node.order[signs]);
+        const Ints order = lanes_of(node.order[flight.signs]);
         const Floats entry = first.permuted(order);
         RayFlight::Level& level = *flight.top;
         entry.store(level.entry);
@@ -139,7 +145,6 @@ class Flights {
         const std::uint32_t met = (entry <= last.permuted(order)).bits();
         level.waiting = met;
         flight.top += static_cast<std::ptrdiff_t>(met != 0);
-        flight.take_next();
     }
     static HWY_INLINE Ints lanes_of(const std::uint32_t* order) {
         alignas(64) static constexpr std::int32_t kShift[kWideLanes] = {
@@ -154,8 +159,8 @@ class Flights {
         std::memcpy(&head, words, sizeof head);
         const Slot* const slots = words + kLeafHeadWords;
         const std::uint32_t copied = head.triangles + head.spheres;
-        const RayBlock& ray = blocks_[flight.index / RayBlock::kRays];
-        const std::size_t lane = flight.index % RayBlock::kRays;
+        const RayBlock& ray = *static_cast<const RayBlock*>(flight.block);
+        const std::size_t lane = flight.lane;
         if (head.unit < ray.least_unit[lane]) {
             add_open(flight, slots, copied + head.others);
             return;

@@ -42,8 +42,8 @@ struct Voxel {
 
 class WideBuilder {
   public:
-    WideBuilder(const FastScene& scene, WideOctree& out)
-        : scene_(scene), octree_(scene.octree()), out_(out), voxels_(octree_.nodes.size()) {}
+    WideBuilder(const FastScene& scene, const CompactOctree& octree, WideOctree& out)
+        : scene_(scene), octree_(octree), out_(out), voxels_(octree_.nodes.size()) {}
 
     void build() {
         measure(0, octree_.bounds);
@@ -252,10 +252,13 @@ class WideBuilder {
 }  // namespace
 
 WideOctree::WideOctree(const FastScene& scene) {
-    const auto& [low, high] = scene.octree().bounds;
+    CompactCosts costs;
+    costs.interior = E("CI",6); costs.leaf=E("CL",2); costs.beam=E("CB",0.01);
+    const CompactOctree octree = scene.octree(getenv("SP")?CutRule::kSpatial:CutRule::kSweep, costs, 1);
+    const auto& [low, high] = octree.bounds;
     for (int axis = 0; axis < 3; ++axis)
         reach = std::max(reach, std::max(std::fabs(low[axis]), std::fabs(high[axis])));
-    WideBuilder(scene, *this).build();
+    WideBuilder(scene, octree, *this).build();
 }
 
 }  // namespace nuvo
