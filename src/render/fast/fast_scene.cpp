@@ -170,6 +170,7 @@ CompactOctree FastScene::octree(CutRule rule, const CompactCosts& costs, int thr
     CompactBuildOptions options;
     options.rule = rule;
     options.costs = costs;
+    if(getenv("MR")) options.max_references_per_item=atof(getenv("MR"));
     options.overlaps = octant_test(items);
     options.threads = threads;
     return build_compact_octree(items.boxes, options);

@@ -26,7 +26,7 @@ namespace nuvo::HWY_NAMESPACE {
 
 class Flights {
   public:
-    static constexpr std::uint32_t kFlights = 32;
+    static constexpr std::uint32_t kFlights = 16;
 
     Flights(const SingleRays& rays, std::span<const Ray> batch, Slot* found)
         : rays_(rays), tree_(rays.tree()), batch_(batch), found_(found) {}
@@ -157,16 +157,18 @@ class Flights {
             tree_.leaves.data() + (flight.next & ~WideOctree::kLeaf);
         WideLeafHead head;
         std::memcpy(&head, words, sizeof head);
-        const Slot* const slots = words + kLeafHeadWords;
-        const std::uint32_t copied = head.triangles + head.spheres;
+        const Slot* slots = words + kLeafHeadWords;
+        const std::uint32_t copied = std::uint32_t{head.triangles} + head.spheres;
+        std::uint32_t others = head.others;
+        if (others == WideLeafHead::kMany) others = *slots++;
         const RayBlock& ray = *static_cast<const RayBlock*>(flight.block);
         const std::size_t lane = flight.lane;
-        if (head.unit < ray.least_unit[lane]) {
-            add_open(flight, slots, copied + head.others);
+        if (RayAtLeaf::unit_of(head) < ray.least_unit[lane]) {
+            add_open(flight, slots, copied + others);
             return;
         }
         const RayAtLeaf at(ray, lane, head, flight.next_entry);
-        const std::uint32_t* const data = slots + copied + head.others;
+        const std::uint32_t* const data = slots + copied + others;
         const auto* const spheres = reinterpret_cast<const float*>(data);
         const auto* const corners =
             reinterpret_cast<const std::uint16_t*>(data + std::size_t{4} * head.spheres);
@@ -178,7 +180,7 @@ class Flights {
                  test_spheres(at, ray, lane, spheres + i, head.spheres, head.spheres - i,
                               rays_.bounds_scale()),
                  ray.behind[lane], slots + head.triangles + i, head.spheres - i);
-        if (head.others != 0) add_open(flight, slots + copied, head.others);
+        if (others != 0) add_open(flight, slots + copied, others);
     }
 
     HWY_INLINE void take(RayFlight& flight, const LeafHits& hits, float origin, const Slot* slots,
@@ -259,7 +261,7 @@ class Flights {
     std::span<const Ray> batch_;
     Slot* found_;
     // Asking for a voxel's memory when it is chosen pays only where the caches cannot hold them all.
-    static constexpr std::size_t kCached = 1 << 20;
+    static constexpr std::size_t kCached = 1 << 17;
     const bool prefetches_ = tree_.memory_bytes() > kCached;
     std::size_t next_ = 0;
     Queue at_nodes_;

@@ -6,6 +6,7 @@
 #define NUVO_RENDER_FAST_SINGLE_RAY_LEAF_H_
 #endif
 
+#include <bit>
 #include <limits>
 
 #include "lanes.h"
@@ -53,10 +54,17 @@ struct Vector16 {
 
 /// A ray at one leaf.
 struct RayAtLeaf {
+    /// For exponents of normal numbers.
+    static HWY_INLINE double power_of_two(int exponent) {
+        return std::bit_cast<double>(static_cast<std::uint64_t>(1023 + exponent) << 52);
+    }
+    static HWY_INLINE float unit_of(const WideLeafHead& head) {
+        return static_cast<float>(power_of_two(head.exponent));
+    }
     HWY_INLINE RayAtLeaf(const RayBlock& block, std::size_t lane, const WideLeafHead& head,
                          float entry_at)
-        : direction_sum(block.direction_sum[lane]), entry(entry_at), unit(head.unit) {
-        const double inverse = 1 / static_cast<double>(head.unit);
+        : direction_sum(block.direction_sum[lane]), entry(entry_at), unit(unit_of(head)) {
+        const double inverse = power_of_two(-head.exponent);
         for (int axis = 0; axis < 3; ++axis) {
             const double p = block.origin[axis][lane] +
                              static_cast<double>(entry) * block.step[axis][lane];

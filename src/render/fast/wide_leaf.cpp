@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 // Corners are copied in 16 bits on a grid that spans the leaf's triangles: half the memory of
 // floats, and more accurate than those where a leaf is less than 1 / 256 of the scene.
@@ -27,21 +28,21 @@ Triangle local_triangle(const FastScene& scene, Slot slot) {
 double extent(const Bounds3& box) { return max_norm(box.widths()); }
 
 struct Grid {
-    Vec3<float> base;
-    double unit;
+    Vec3<float> base{0, 0, 0};
+    int exponent = 0;
+    double unit() const { return std::ldexp(1.0, exponent); }
 };
 
 // A grid over the box. The base is rounded downwards by up to one float unit of 1.
 Grid grid_over(const Bounds3& box) {
     Grid grid;
-    double width = kLeastUnit;
+    double width = 0;
     for (int axis = 0; axis < 3; ++axis) {
         grid.base[axis] = static_cast<float>(box.min[axis] - 0x1p-23);
         width = std::max(width, box.max[axis] - static_cast<double>(grid.base[axis]));
     }
-    int exponent = 0;
-    std::frexp(width / kLargestCorner, &exponent);
-    grid.unit = std::max(std::ldexp(1.0, exponent), kLeastUnit);
+    std::frexp(width / kLargestCorner, &grid.exponent);
+    grid.exponent = std::max(grid.exponent, kLeastExponent);
     return grid;
 }
 
@@ -52,11 +53,12 @@ void put_floats(std::span<const float> values, std::vector<std::uint32_t>& words
 void put_corners(const Grid& grid, std::span<const Triangle> triangles,
                  std::vector<std::uint32_t>& words) {
     std::vector<std::uint16_t> numbers;
+    const double unit = grid.unit();
     for (const auto corner : {&Triangle::a, &Triangle::b, &Triangle::c})
         for (int axis = 0; axis < 3; ++axis)
             for (const Triangle& t : triangles)
                 numbers.push_back(static_cast<std::uint16_t>(std::nearbyint(
-                    ((t.*corner)[axis] - static_cast<double>(grid.base[axis])) / grid.unit)));
+                    ((t.*corner)[axis] - static_cast<double>(grid.base[axis])) / unit)));
     const std::size_t place = words.size();
     words.resize(place + (numbers.size() + 1) / 2);
     std::memcpy(words.data() + place, numbers.data(), numbers.size() * sizeof(std::uint16_t));
@@ -86,56 +88,85 @@ std::size_t cut_polygon(Polygon& polygon, std::size_t count, int axis, double pl
 
 }  // namespace
 
-std::uint32_t append_leaf(const FastScene& scene, std::span<const Slot> slots,
-                          std::vector<std::uint32_t>& words) {
-    std::vector<Slot> copied;
+namespace {
+
+// A leaf's primitives by what becomes of them.
+struct Sorted {
+    std::vector<Slot> triangles;
+    std::vector<Triangle> corners;
+    std::vector<Slot> spheres;
+    std::array<std::vector<float>, 4> centers_and_radii;
     std::vector<Slot> others;
-    std::vector<Triangle> triangles;
-    double smallest = INFINITY;
+};
+
+void sort_triangles(const FastScene& scene, std::span<const Slot> slots, Sorted& out) {
+    double smallest = std::numeric_limits<double>::infinity();
     for (const Slot slot : slots)
-        if (slot < scene.triangle_end())
-            smallest = std::min(smallest, extent(local_triangle(scene, slot).bounds()));
-    Bounds3 box;
+        smallest = std::min(smallest, extent(local_triangle(scene, slot).bounds()));
     for (const Slot slot : slots) {
-        if (slot >= scene.triangle_end()) break;
         const Triangle t = local_triangle(scene, slot);
         if (extent(t.bounds()) > kLargestRatio * smallest) {
-            others.push_back(slot);
-            continue;
+            out.others.push_back(slot);
+        } else {
+            out.triangles.push_back(slot);
+            out.corners.push_back(t);
         }
-        copied.push_back(slot);
-        triangles.push_back(t);
-        box = box.extended(t.bounds());
     }
-    WideLeafHead head{};
-    head.triangles = static_cast<std::uint32_t>(triangles.size());
-    Grid grid{{0, 0, 0}, 1};
-    if (!box.empty()) grid = grid_over(box);
-    for (int axis = 0; axis < 3; ++axis) head.base[axis] = grid.base[axis];
-    head.unit = static_cast<float>(grid.unit);
-    std::array<std::vector<float>, 4> spheres;
+}
+
+void sort_others(const FastScene& scene, std::span<const Slot> slots, Sorted& out) {
     for (const Slot slot : slots) {
-        if (slot < scene.triangle_end()) continue;
         if (slot >= scene.sphere_end()) {
-            others.push_back(slot);
+            out.others.push_back(slot);
             continue;
         }
         const auto& s = std::get<Sphere>(scene.scene().objects[scene.source(slot).object].shape);
         const Point3 center = scene.frame().local(s.center);
-        copied.push_back(slot);
+        out.spheres.push_back(slot);
         for (int axis = 0; axis < 3; ++axis)
-            spheres[axis].push_back(static_cast<float>(center[axis]));
-        spheres[3].push_back(static_cast<float>(s.radius * scene.frame().scale));
+            out.centers_and_radii[axis].push_back(static_cast<float>(center[axis]));
+        out.centers_and_radii[3].push_back(static_cast<float>(s.radius * scene.frame().scale));
     }
-    head.spheres = static_cast<std::uint32_t>(spheres[3].size());
-    head.others = static_cast<std::uint32_t>(others.size());
+}
+
+// `slots` ascend. More than a byte can count are all tested exactly: there is no telling them
+// apart, or the octree would have.
+Sorted sort_by_kind(const FastScene& scene, std::span<const Slot> slots) {
+    Sorted out;
+    if (slots.size() >= WideLeafHead::kMany) {
+        out.others.assign(slots.begin(), slots.end());
+        return out;
+    }
+    const auto spheres = std::lower_bound(slots.begin(), slots.end(), scene.triangle_end());
+    const auto count = static_cast<std::size_t>(spheres - slots.begin());
+    sort_triangles(scene, slots.first(count), out);
+    sort_others(scene, slots.subspan(count), out);
+    return out;
+}
+
+}  // namespace
+
+std::uint32_t append_leaf(const FastScene& scene, std::span<const Slot> slots,
+                          std::vector<std::uint32_t>& words) {
+    const Sorted sorted = sort_by_kind(scene, slots);
+    Bounds3 box;
+    for (const Triangle& t : sorted.corners) box = box.extended(t.bounds());
+    const Grid grid = box.empty() ? Grid{} : grid_over(box);
+    WideLeafHead head;
+    for (int axis = 0; axis < 3; ++axis) head.base[axis] = grid.base[axis];
+    head.exponent = static_cast<std::int8_t>(grid.exponent);
+    head.triangles = static_cast<std::uint8_t>(sorted.triangles.size());
+    head.spheres = static_cast<std::uint8_t>(sorted.spheres.size());
+    const bool many = sorted.others.size() >= WideLeafHead::kMany;
+    head.others = many ? WideLeafHead::kMany : static_cast<std::uint8_t>(sorted.others.size());
     const std::size_t place = words.size();
     words.resize(place + kLeafHeadWords);
     std::memcpy(words.data() + place, &head, sizeof head);
-    words.insert(words.end(), copied.begin(), copied.end());
-    words.insert(words.end(), others.begin(), others.end());
-    for (const auto& values : spheres) put_floats(values, words);
-    put_corners(grid, triangles, words);
+    if (many) words.push_back(static_cast<std::uint32_t>(sorted.others.size()));
+    for (const auto* part : {&sorted.triangles, &sorted.spheres, &sorted.others})
+        words.insert(words.end(), part->begin(), part->end());
+    for (const auto& values : sorted.centers_and_radii) put_floats(values, words);
+    put_corners(grid, sorted.corners, words);
     return static_cast<std::uint32_t>(place);
 }
 

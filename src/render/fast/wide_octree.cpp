@@ -20,8 +20,8 @@ namespace {
 // measured on random rays.
 float E(const char*n,float d){const char*e=getenv(n);return e?atof(e):d;}
 float kNodeCost = E("KN",1);
-float kLeafCost = E("KL",0.75F);
-float kBlockCost = E("KB",0.75F);
+float kLeafCost = E("KL",1);
+float kBlockCost = E("KB",1.5F);
 
 float half_area(const Bounds3T<float>& box) {
     if (box.empty()) return 0;
@@ -46,6 +46,7 @@ class WideBuilder {
         : scene_(scene), octree_(octree), out_(out), voxels_(octree_.nodes.size()) {}
 
     void build() {
+        byte_cost_ = E("MU",0)*half_area(octree_.bounds)/(22.0F*scene_.slot_end());
         measure(0, octree_.bounds);
         out_.nodes.emplace_back();
         std::vector<Inner> voxels;
@@ -63,9 +64,10 @@ class WideBuilder {
   private:
     static constexpr std::size_t kMost = std::numeric_limits<std::uint32_t>::max();
 
-    static float leaf_cost(const Voxel& voxel) {
+    float leaf_cost(const Voxel& voxel) const {
         const auto blocks = static_cast<float>((voxel.count + kWideLanes - 1) / kWideLanes);
-        return half_area(voxel.box) * (kLeafCost + kBlockCost * blocks);
+        return half_area(voxel.box) * (kLeafCost + kBlockCost * blocks) +
+               byte_cost_ * (16.0F + 22.0F * static_cast<float>(voxel.count));
     }
 
     // Fills in the voxels from this one down.
@@ -99,7 +101,8 @@ class WideBuilder {
         const std::vector<Forest> sums = sums_of(node);
         voxel.forest = sums.back();
         const float as_node =
-            half_area(voxel.box) * kNodeCost + voxel.forest[kWideLanes - 1];
+            half_area(voxel.box) * kNodeCost + byte_cost_ * sizeof(WideNode) +
+            voxel.forest[kWideLanes - 1];
         const float as_leaf =
             voxel.small ? leaf_cost(voxel) : std::numeric_limits<float>::infinity();
         voxel.leaf = as_leaf <= as_node;
@@ -244,6 +247,7 @@ class WideBuilder {
     const FastScene& scene_;
     const CompactOctree& octree_;
     WideOctree& out_;
+    float byte_cost_ = 0;
     std::vector<Voxel> voxels_;  // by place in the octree
     std::vector<Slot> items_;
     std::vector<Slot> gathered_;
@@ -253,7 +257,7 @@ class WideBuilder {
 
 WideOctree::WideOctree(const FastScene& scene) {
     CompactCosts costs;
-    costs.interior = E("CI",6); costs.leaf=E("CL",2); costs.beam=E("CB",0.01);
+    costs.interior = E("CI",2); costs.leaf=E("CL",1); costs.beam=E("CB",0);
     const CompactOctree octree = scene.octree(getenv("SP")?CutRule::kSpatial:CutRule::kSweep, costs, 1);
     const auto& [low, high] = octree.bounds;
     for (int axis = 0; axis < 3; ++axis)

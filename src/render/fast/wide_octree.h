@@ -33,19 +33,22 @@ struct alignas(64) WideNode {
 /// local coordinate = base + unit * number. `others` are to be tested exactly.
 struct WideLeafHead {
     float base[3];
-    float unit;  ///< a power of two
-    std::uint32_t triangles;
-    std::uint32_t spheres;
-    std::uint32_t others;
-    std::uint32_t unused;
+    std::int8_t exponent;  ///< unit = 2^exponent
+    std::uint8_t triangles;
+    std::uint8_t spheres;
+    /// kMany: more than fit into a byte, in the word behind the head.
+    std::uint8_t others;
+
+    static constexpr std::uint8_t kMany = 255;
 };
 inline constexpr std::size_t kLeafHeadWords = sizeof(WideLeafHead) / sizeof(std::uint32_t);
+static_assert(kLeafHeadWords == 4);
 
 /// How far a copied corner lies from base + unit * number, in units: rounded to nearest, plus what
-/// three double roundings of local coordinates can add while unit >= kLeastUnit.
+/// three double roundings of local coordinates can add while the unit is at least 2^-38.
 inline constexpr double kCornerRounding = 0.5 + 0x1p-10;
-/// Smaller leaves are copied as coarsely as this.
-inline constexpr double kLeastUnit = 0x1p-38;
+/// Smaller leaves are copied as coarsely as 2 to this.
+inline constexpr int kLeastExponent = -38;
 /// Largest number of a corner.
 inline constexpr double kLargestCorner = 65535;
 
