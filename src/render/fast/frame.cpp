@@ -49,7 +49,7 @@ struct Frame::Tables {
           triangles(triangle_box),
           camera(scene, rays, options.isa),
           shadow(scene, options.isa),
-          shading(scene, rays, options.isa),
+          shading(scene, rays, options.isa, options.redo_exactly),
           tiles(tiles_in_order(resolution)) {}
 
     CameraRays rays;
