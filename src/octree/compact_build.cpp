@@ -1,12 +1,12 @@
 #include "nuvo/octree/compact_build.h"
 
 #include <algorithm>
-#include <limits>
 
-#include "compact_subtree.h"
+#include "compact_plan.h"
+#include "nuvo/math/parallel.h"
 
 // The octree in the order in which a ray meets it: the children of a node side by side, then their
-// subtrees in turn.
+// subtrees in turn. A subtree thus is a range of nodes and a range of references.
 
 namespace nuvo {
 namespace {
@@ -25,30 +25,76 @@ Bounds3T<float> root_box(BoxSpan boxes) {
     return {root.min - widths * kBelow, root.max + widths * kAbove};
 }
 
+// Lays out one subtree in the ranges that begin at `node` and at `item`.
 class Layout {
   public:
-    explicit Layout(CompactOctree& out) : out_(out) {}
+    Layout(const Subtree& from, CompactOctree& out, std::size_t node, std::size_t item)
+        : from_(from), out_(out), next_node_(node), next_item_(item) {}
 
-    // Puts a node of the subtree, and all below it, at `place`.
-    void put(const Subtree& from, const CompactNode& node, std::size_t place) {
+    void put(const CompactNode& node, std::size_t place) {
         if (node.is_leaf()) {
-            const auto first = static_cast<std::uint32_t>(out_.items.size());
-            const auto begin = from.items.begin() + node.first_item();
-            out_.items.insert(out_.items.end(), begin, begin + node.item_count());
-            out_.nodes[place] = CompactNode::leaf(first, node.item_count());
+            const auto begin = from_.items.begin() + node.first_item();
+            std::copy(begin, begin + node.item_count(),
+                      out_.items.begin() + static_cast<std::ptrdiff_t>(next_item_));
+            out_.nodes[place] =
+                CompactNode::leaf(static_cast<std::uint32_t>(next_item_), node.item_count());
+            next_item_ += node.item_count();
             return;
         }
+        const std::size_t first = next_node_;
         const auto count = static_cast<std::size_t>(std::popcount(node.mask()));
-        const std::size_t first = out_.nodes.size();
-        out_.nodes.resize(first + count);
+        next_node_ += count;
         out_.nodes[place] = node;
         out_.nodes[place].children = static_cast<std::uint32_t>(first) << 8 | node.mask();
-        for (std::size_t i = 0; i < count; ++i)
-            put(from, from.nodes[node.first_child() + i], first + i);
+        for (std::size_t i = 0; i < count; ++i) put(from_.nodes[node.first_child() + i], first + i);
     }
 
   private:
+    const Subtree& from_;
     CompactOctree& out_;
+    std::size_t next_node_;
+    std::size_t next_item_;
+};
+
+// Where the subtree of a node of the plan goes.
+struct Destination {
+    const Subtree* subtree;
+    std::size_t root;
+    std::size_t nodes;
+    std::size_t items;
+};
+
+// Places the upper levels and reserves the ranges of the subtrees.
+class Ranges {
+  public:
+    Ranges(const std::vector<PlanNode>& plan, CompactOctree& out) : plan_(plan), out_(out) {
+        out_.nodes.resize(1);
+        reserve(plan_[0], 0);
+    }
+    const std::vector<Destination>& destinations() const { return destinations_; }
+    std::size_t item_count() const { return items_; }
+
+  private:
+    void reserve(const PlanNode& node, std::size_t place) {
+        const std::size_t first = out_.nodes.size();
+        if (!node.split) {
+            destinations_.push_back({&node.subtree, place, first, items_});
+            out_.nodes.resize(first + node.subtree.nodes.size());
+            items_ += node.subtree.items.size();
+            return;
+        }
+        const Vec3<float>& cut = node.split->voxel.cut;
+        out_.nodes[place] = {{cut.x, cut.y, cut.z},
+                             static_cast<std::uint32_t>(first) << 8 | node.split->occupied()};
+        const unsigned count = node.split->octants();
+        out_.nodes.resize(first + count);
+        for (unsigned i = 0; i < count; ++i) reserve(plan_[node.first_child + i], first + i);
+    }
+
+    const std::vector<PlanNode>& plan_;
+    CompactOctree& out_;
+    std::vector<Destination> destinations_;
+    std::size_t items_ = 0;
 };
 
 }  // namespace
@@ -57,15 +103,17 @@ CompactOctree build_compact_octree(std::span<const Bounds3T<float>> boxes,
                                    const CompactBuildOptions& options) {
     CompactOctree tree;
     tree.bounds = root_box(boxes);
-    std::vector<std::uint32_t> all(boxes.size());
-    for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<std::uint32_t>(i);
-    const Allowance allowance{options.max_references_per_item * static_cast<double>(all.size()),
+    const Allowance allowance{options.max_references_per_item * static_cast<double>(boxes.size()),
                               CompactNode::kMaxNodes - 1.0};
-    const Subtree subtree = SubtreeBuilder(boxes, options).build({tree.bounds, 1, allowance}, all);
-    tree.nodes.reserve(subtree.nodes.size() + 1);
-    tree.items.reserve(subtree.items.size());
-    tree.nodes.resize(1);
-    Layout(tree).put(subtree, subtree.root, 0);
+    std::vector<PlanNode> plan = make_plan({tree.bounds, 1, allowance}, boxes, options);
+    carry_out(plan, boxes, options);
+    const Ranges ranges(plan, tree);
+    tree.nodes.shrink_to_fit();
+    tree.items.resize(ranges.item_count());
+    for_each_index(options.threads, ranges.destinations().size(), [&](std::size_t i, int) {
+        const Destination& to = ranges.destinations()[i];
+        Layout(*to.subtree, tree, to.nodes, to.items).put(to.subtree->root, to.root);
+    });
     return tree;
 }
 

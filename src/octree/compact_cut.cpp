@@ -1,23 +1,34 @@
 #include "compact_cut.h"
 
-// Where to cut. Spatial: the centre. [thesis 4.4.1]
+#include <algorithm>
+
+#include "compact_sweep.h"
+
+// Where to cut: through the centre [thesis 4.4.1] or by the sweep, where the axis is wide enough.
 
 namespace nuvo {
 namespace {
 
-// Strictly inside, or the upper face for "not cut".
-float inside_or_uncut(float plane, float low, float high) {
-    return low < plane && plane < high ? plane : high;
-}
+// An axis by this factor narrower than the widest is not cut: of a scene that is flat in it the
+// items would lie on both sides.
+constexpr float kFlattest = 0x1p-12F;
 
 }  // namespace
 
-std::optional<CutVoxel> choose_cut(CutRule, const Bounds3T<float>& voxel, ItemSpan, BoxSpan) {
-    CutVoxel cut{voxel, voxel.center()};
+std::optional<CutVoxel> choose_cut(CutRule rule, const Bounds3T<float>& voxel, ItemSpan items,
+                                   BoxSpan boxes) {
+    const Vec3<float> planes =
+        rule == CutRule::kSweep ? sweep_planes(voxel, items, boxes) : voxel.center();
+    const Vec3<float> widths = voxel.widths();
+    const float narrowest = max_norm(widths) * kFlattest;
+    CutVoxel cut{voxel, voxel.max};
     bool any = false;
     for (int axis = 0; axis < 3; ++axis) {
-        cut.cut[axis] = inside_or_uncut(cut.cut[axis], voxel.min[axis], voxel.max[axis]);
-        any |= cut.cut[axis] < voxel.max[axis];
+        const float plane = planes[axis];
+        if (!(widths[axis] > narrowest && voxel.min[axis] < plane && plane < voxel.max[axis]))
+            continue;
+        cut.cut[axis] = plane;
+        any = true;
     }
     if (!any) return std::nullopt;
     return cut;

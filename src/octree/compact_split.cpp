@@ -1,6 +1,6 @@
 #include "compact_split.h"
 
-#include <bit>
+#include <algorithm>
 
 // One cut: the octants that an item's box touches follow from six comparisons with the planes; only
 // items in more than one octant are tested any further, all of a voxel together.
@@ -37,11 +37,11 @@ constexpr std::array<std::uint64_t, 256> spread_bits() {
 constexpr std::array<std::uint64_t, 256> kSpread = spread_bits();
 
 // Octants that exist: the upper half of an axis that is not cut does not.
-std::uint8_t existing_octants(const CutVoxel& voxel) {
+unsigned existing_octants(const CutVoxel& voxel) {
     unsigned mask = 0xff;
     for (int axis = 0; axis < 3; ++axis)
         if (!(voxel.cut[axis] < voxel.bounds.max[axis])) mask &= kLower[axis];
-    return static_cast<std::uint8_t>(mask);
+    return mask;
 }
 
 unsigned sides(const Bounds3T<float>& box, const Vec3<float>& cut) {
@@ -50,70 +50,66 @@ unsigned sides(const Bounds3T<float>& box, const Vec3<float>& cut) {
            bit(box.max.x >= cut.x, 3) | bit(box.max.y >= cut.y, 4) | bit(box.max.z >= cut.z, 5);
 }
 
-}  // namespace
-
-std::optional<Split> Splitter::try_split(const Bounds3T<float>& voxel, ItemSpan items) {
-    // A cut costs a step; what it saves is at most the test of each item.
-    if (static_cast<double>(items.size()) <= options_.costs.interior) return std::nullopt;
-    const std::optional<CutVoxel> cut = choose_cut(options_.rule, voxel, items, boxes_);
-    if (!cut) return std::nullopt;
-    classify(*cut, items);
-    if (options_.overlaps) refine(*cut);
-
-    Split split{*cut, {}, 0};
+std::array<std::size_t, 8> count_octants(const std::uint8_t* masks, std::size_t count) {
     constexpr std::size_t kByteRange = 255;
-    for (std::size_t begin = 0; begin < items.size(); begin += kByteRange) {
-        const std::size_t end = std::min(begin + kByteRange, items.size());
+    std::array<std::size_t, 8> counts{};
+    for (std::size_t begin = 0; begin < count; begin += kByteRange) {
+        const std::size_t end = std::min(begin + kByteRange, count);
         std::uint64_t bytes = 0;
-        for (std::size_t i = begin; i < end; ++i) bytes += kSpread[masks_[i]];
-        for (unsigned o = 0; o < 8; ++o) split.counts[o] += bytes >> (8 * o) & 0xff;
+        for (std::size_t i = begin; i < end; ++i) bytes += kSpread[masks[i]];
+        for (unsigned o = 0; o < 8; ++o) counts[o] += bytes >> (8 * o) & 0xff;
     }
-    for (const std::size_t count : split.counts) split.references += count;
-    if (!pays(split, items.size())) return std::nullopt;
-    return split;
+    return counts;
 }
 
-void Splitter::classify(const CutVoxel& voxel, ItemSpan items) {
-    const std::uint8_t existing = existing_octants(voxel);
-    if (masks_.size() < items.size()) {
-        masks_.resize(items.size());
-        doubtful_.resize(items.size() + 1);
-        places_.resize(items.size() + 1);
+}  // namespace
+
+bool Prices::pays(const Split& split, std::size_t count) const {
+    double cost = interior(split.voxel.bounds);
+    for (unsigned o = 0; o < 8; ++o)
+        if (split.counts[o] != 0) cost += leaf(octant_box(split.voxel, o), split.counts[o]);
+    return cost < leaf(split.voxel.bounds, count);
+}
+
+std::array<std::size_t, 8> OctantMarker::mark(const CutVoxel& voxel, ItemSpan items,
+                                              std::uint8_t* masks) {
+    const std::size_t doubtful = mark_by_boxes(voxel, items, masks);
+    if (overlaps_ && doubtful > 0) refine(voxel, doubtful, masks);
+    return count_octants(masks, items.size());
+}
+
+std::size_t OctantMarker::mark_by_boxes(const CutVoxel& voxel, ItemSpan items,
+                                        std::uint8_t* masks) {
+    const unsigned existing = existing_octants(voxel);
+    if (doubtful_.size() < items.size()) {
+        doubtful_.resize(items.size());
+        places_.resize(items.size());
+        candidates_.resize(items.size());
     }
     std::size_t doubtful = 0;
     for (std::size_t i = 0; i < items.size(); ++i) {
-        const std::uint8_t mask = kOctantsOfSides[sides(boxes_[items[i]], voxel.cut)] & existing;
-        masks_[i] = mask;
+        const unsigned mask = kOctantsOfSides[sides(boxes_[items[i]], voxel.cut)] & existing;
+        masks[i] = static_cast<std::uint8_t>(mask);
+        // Written always, kept where the count moves on: no branch to be guessed wrong.
         doubtful_[doubtful] = items[i];
         places_[doubtful] = static_cast<std::uint32_t>(i);
+        candidates_[doubtful] = static_cast<std::uint8_t>(mask);
         doubtful += (mask & (mask - 1)) != 0 ? 1 : 0;
     }
-    candidates_.resize(doubtful);
+    return doubtful;
 }
 
-void Splitter::refine(const CutVoxel& voxel) {
-    const std::size_t count = candidates_.size();
-    if (count == 0) return;
-    for (std::size_t i = 0; i < count; ++i) candidates_[i] = masks_[places_[i]];
-    options_.overlaps(voxel, ItemSpan(doubtful_).first(count), candidates_);
-    for (std::size_t i = 0; i < count; ++i) masks_[places_[i]] = candidates_[i];
+void OctantMarker::refine(const CutVoxel& voxel, std::size_t doubtful, std::uint8_t* masks) {
+    overlaps_(voxel, ItemSpan(doubtful_).first(doubtful), std::span(candidates_).first(doubtful));
+    for (std::size_t i = 0; i < doubtful; ++i) masks[places_[i]] = candidates_[i];
 }
 
-// The surface area heuristic with the octants taken for leaves. [eq. 10]
-bool Splitter::pays(const Split& split, std::size_t count) const {
-    double cost = interior_cost(split.voxel.bounds);
-    for (unsigned o = 0; o < 8; ++o)
-        if (split.counts[o] != 0) cost += leaf_cost(octant_box(split.voxel, o), split.counts[o]);
-    return cost < leaf_cost(split.voxel.bounds, count);
-}
-
-void Splitter::distribute(ItemSpan items, const std::array<std::size_t, 8>& first,
-                          std::uint32_t* out) const {
+void distribute(ItemSpan items, const std::uint8_t* masks, const std::array<std::size_t, 8>& first,
+                std::uint32_t* out) {
     std::array<std::uint32_t*, 8> next;
     for (unsigned o = 0; o < 8; ++o) next[o] = out + first[o];
-    // Without branches: every item is written everywhere, and stays where the place moves on.
     for (std::size_t i = 0; i < items.size(); ++i) {
-        const unsigned mask = masks_[i];
+        const unsigned mask = masks[i];
         const std::uint32_t item = items[i];
         for (unsigned o = 0; o < 8; ++o) {
             *next[o] = item;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -10,51 +11,66 @@
 
 namespace nuvo {
 
-/// A voxel cut, and which of its octants each item touches.
+/// A voxel cut, and how many items each octant holds.
 struct Split {
     CutVoxel voxel;
-    std::array<std::size_t, 8> counts{};  ///< items in each octant
-    std::size_t references = 0;           ///< their sum
+    std::array<std::size_t, 8> counts{};
 
-    std::uint8_t occupied() const {
+    std::size_t references() const {
+        std::size_t sum = 0;
+        for (const std::size_t count : counts) sum += count;
+        return sum;
+    }
+    /// Bit o: octant o holds items.
+    unsigned occupied() const {
         unsigned mask = 0;
         for (unsigned o = 0; o < 8; ++o) mask |= (counts[o] != 0 ? 1U : 0U) << o;
-        return static_cast<std::uint8_t>(mask);
+        return mask;
     }
+    unsigned octants() const { return static_cast<unsigned>(std::popcount(occupied())); }
 };
 
-/// Tries cuts and hands items down to octants. One for each thread: it keeps its buffers.
-class Splitter {
+/// The surface area heuristic in units of half a square local unit. [eq. 10]
+class Prices {
   public:
-    Splitter(BoxSpan boxes, const CompactBuildOptions& options)
-        : boxes_(boxes), options_(options) {}
+    explicit Prices(const CompactCosts& costs) : costs_(costs) {}
 
-    /// The cut of a voxel with these items, unless it cannot be cut or it would not pay.
-    std::optional<Split> try_split(const Bounds3T<float>& voxel, ItemSpan items);
-
-    /// Writes the items of the octants in turn, in order, as the last try_split() found them: those
-    /// of octant o to out[first[o]] on, with one place of scratch behind them.
-    void distribute(ItemSpan items, const std::array<std::size_t, 8>& first,
-                    std::uint32_t* out) const;
-
-    double leaf_cost(const Bounds3T<float>& voxel, std::size_t count) const {
-        return half_area(voxel) * (options_.costs.leaf + static_cast<double>(count));
+    double leaf(const Bounds3T<float>& voxel, std::size_t count) const {
+        return half_area(voxel) * (costs_.leaf + static_cast<double>(count));
     }
-    double interior_cost(const Bounds3T<float>& voxel) const {
-        return half_area(voxel) * options_.costs.interior;
+    double interior(const Bounds3T<float>& voxel) const {
+        return half_area(voxel) * costs_.interior;
     }
-
-  private:
-    void classify(const CutVoxel& voxel, ItemSpan items);
-    void refine(const CutVoxel& voxel);
+    /// False where a cut cannot pay: it costs a step and saves at most all tests.
+    bool may_pay(std::size_t count) const { return static_cast<double>(count) > costs_.interior; }
+    /// With the octants taken for leaves.
     bool pays(const Split& split, std::size_t count) const;
 
+  private:
+    CompactCosts costs_;
+};
+
+/// Finds which octants of a cut voxel items touch. One for each thread: it keeps its buffers.
+class OctantMarker {
+  public:
+    OctantMarker(BoxSpan boxes, const OctantTest& overlaps) : boxes_(boxes), overlaps_(overlaps) {}
+
+    /// Sets masks[i] for items[i] and returns how many items touch each octant.
+    std::array<std::size_t, 8> mark(const CutVoxel& voxel, ItemSpan items, std::uint8_t* masks);
+
+  private:
+    std::size_t mark_by_boxes(const CutVoxel& voxel, ItemSpan items, std::uint8_t* masks);
+    void refine(const CutVoxel& voxel, std::size_t doubtful, std::uint8_t* masks);
+
     BoxSpan boxes_;
-    const CompactBuildOptions& options_;
-    std::vector<std::uint8_t> masks_;       // octants of each item
+    const OctantTest& overlaps_;
     std::vector<std::uint32_t> doubtful_;   // items with more than one octant,
-    std::vector<std::uint32_t> places_;     // their places in masks_
+    std::vector<std::uint32_t> places_;     // their places among the items
     std::vector<std::uint8_t> candidates_;  // and their octants
 };
+
+/// Writes the items of octant o in order to out[first[o]] and on, with one place of scratch behind.
+void distribute(ItemSpan items, const std::uint8_t* masks, const std::array<std::size_t, 8>& first,
+                std::uint32_t* out);
 
 }  // namespace nuvo

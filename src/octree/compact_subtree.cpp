@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 // Depth first: cut while the surface area heuristic falls, and on the way back turn what did not
 // pay after all into a leaf. Children stand before their parents, so that taking a subtree back is
@@ -14,33 +15,39 @@ Subtree SubtreeBuilder::build(const Place& place, ItemSpan items) {
     if (stack_.size() < items.size()) stack_.resize(items.size());
     std::copy(items.begin(), items.end(), stack_.begin());
     top_ = items.size();
-    const Built root = node(place, 0, items.size());
+    const Built root = node(place, {0, items.size()});
     out_.root = root.node;
     out_.cost = root.cost;
-    return std::move(out_);
+    return std::exchange(out_, {});
 }
 
-SubtreeBuilder::Built SubtreeBuilder::node(const Place& place, std::size_t begin,
-                                           std::size_t count) {
-    if (place.level >= CompactOctree::kMaxDepth) return leaf(place, begin, count);
-    const std::optional<Split> split =
-        splitter_.try_split(place.voxel, ItemSpan(stack_).subspan(begin, count));
-    if (!split || !place.allowance.permits(*split)) return leaf(place, begin, count);
-    if (split->references == 0) return leaf(place, begin, 0);  // all only came near
-    return interior(place, *split, begin, count);
+SubtreeBuilder::Built SubtreeBuilder::node(const Place& place, Run run) {
+    const std::optional<Split> split = try_split(place, items(run));
+    if (!split) return leaf(place, run);
+    if (split->occupied() == 0) return leaf(place, {run.begin, 0});  // all only came near
+    return interior(place, *split, run);
 }
 
-SubtreeBuilder::Built SubtreeBuilder::leaf(const Place& place, std::size_t begin,
-                                           std::size_t count) {
+std::optional<Split> SubtreeBuilder::try_split(const Place& place, ItemSpan items) {
+    if (place.level >= CompactOctree::kMaxDepth || !prices_.may_pay(items.size()))
+        return std::nullopt;
+    const std::optional<CutVoxel> cut = choose_cut(rule_, place.voxel, items, boxes_);
+    if (!cut) return std::nullopt;
+    if (masks_.size() < items.size()) masks_.resize(items.size());
+    const Split split{*cut, marker_.mark(*cut, items, masks_.data())};
+    if (!place.allowance.permits(split) || !prices_.pays(split, items.size())) return std::nullopt;
+    return split;
+}
+
+SubtreeBuilder::Built SubtreeBuilder::leaf(const Place& place, Run run) {
     const auto first = static_cast<std::uint32_t>(out_.items.size());
-    const auto from = stack_.begin() + static_cast<std::ptrdiff_t>(begin);
-    out_.items.insert(out_.items.end(), from, from + static_cast<std::ptrdiff_t>(count));
-    return {CompactNode::leaf(first, static_cast<std::uint32_t>(count)),
-            splitter_.leaf_cost(place.voxel, count)};
+    const ItemSpan from = items(run);
+    out_.items.insert(out_.items.end(), from.begin(), from.end());
+    return {CompactNode::leaf(first, static_cast<std::uint32_t>(run.count)),
+            prices_.leaf(place.voxel, run.count)};
 }
 
-SubtreeBuilder::Built SubtreeBuilder::interior(const Place& place, const Split& split,
-                                               std::size_t begin, std::size_t count) {
+SubtreeBuilder::Built SubtreeBuilder::interior(const Place& place, const Split& split, Run run) {
     const std::size_t nodes_before = out_.nodes.size();
     const std::size_t items_before = out_.items.size();
     const std::size_t top_before = top_;
@@ -50,31 +57,28 @@ SubtreeBuilder::Built SubtreeBuilder::interior(const Place& place, const Split& 
         top_ += split.counts[o] + 1;
     }
     if (stack_.size() < top_) stack_.resize(std::max(top_, 2 * stack_.size()));
-    splitter_.distribute(ItemSpan(stack_).subspan(begin, count), first, stack_.data());
+    distribute(items(run), masks_.data(), first, stack_.data());
 
     std::array<CompactNode, 8> children;
-    unsigned built = 0;
-    double cost = splitter_.interior_cost(place.voxel);
-    const auto octants = static_cast<unsigned>(std::popcount(split.occupied()));
+    std::size_t built = 0;
+    double cost = prices_.interior(place.voxel);
     for (unsigned o = 0; o < 8; ++o) {
         if (split.counts[o] == 0) continue;
-        const Place child{octant_box(split.voxel, o), place.level + 1,
-                          place.allowance.share(split.counts[o], split.references, octants)};
-        const Built result = node(child, first[o], split.counts[o]);
-        children[built++] = result.node;
-        cost += result.cost;
+        const Built child = node(place.octant(split, o), {first[o], split.counts[o]});
+        children[built++] = child.node;
+        cost += child.cost;
     }
     top_ = top_before;
-    if (cost >= splitter_.leaf_cost(place.voxel, count)) {
+    if (cost >= prices_.leaf(place.voxel, run.count)) {
         out_.nodes.resize(nodes_before);
         out_.items.resize(items_before);
-        return leaf(place, begin, count);
+        return leaf(place, run);
     }
-    CompactNode result;
-    for (int axis = 0; axis < 3; ++axis) result.cut[axis] = split.voxel.cut[axis];
-    result.children = static_cast<std::uint32_t>(out_.nodes.size()) << 8 | split.occupied();
-    out_.nodes.insert(out_.nodes.end(), children.begin(), children.begin() + built);
-    return {result, cost};
+    const Vec3<float>& cut = split.voxel.cut;
+    const auto place_of_children = static_cast<std::uint32_t>(out_.nodes.size());
+    out_.nodes.insert(out_.nodes.end(), children.begin(),
+                      children.begin() + static_cast<std::ptrdiff_t>(built));
+    return {{{cut.x, cut.y, cut.z}, place_of_children << 8 | split.occupied()}, cost};
 }
 
 }  // namespace nuvo

@@ -41,7 +41,8 @@ struct CompactBuildOptions {
     double max_references_per_item = 8;
 };
 
-/// The octree of the items with these boxes (finite, none empty); an item is its index. Each leaf
+/// The octree of the items with these boxes (none empty; all together 2^-30 to 2^30 wide, best 1
+/// around 0, where floats are densest); an item is its index. Each leaf
 /// lists every item whose box touches the closed voxel and which `overlaps` does not exclude.
 /// O(n log n) but for items that cuts do not part.
 CompactOctree build_compact_octree(std::span<const Bounds3T<float>> boxes,

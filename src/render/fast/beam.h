@@ -6,6 +6,8 @@
 #define NUVO_RENDER_FAST_BEAM_H_
 #endif
 
+#include <hwy/cache_control.h>
+
 #include <bit>
 
 #include "beam_box.h"
@@ -29,7 +31,8 @@ namespace nuvo::HWY_NAMESPACE {
 template <bool kStraddles>
 class BeamSlabs {
   public:
-    explicit HWY_INLINE BeamSlabs(const BeamBox& beam) : t_end_(beam.t_end * (1 + kWiden)) {
+    explicit HWY_INLINE BeamSlabs(const BeamBox& beam)
+        : t_end_(beam.t_end * (1 + kWiden)), flip_(beam.far_first ? 7 : 0) {
         for (int axis = 0; axis < 3; ++axis) {
             const float low = beam.direction_low[axis];
             const float high = beam.direction_high[axis];
@@ -45,11 +48,11 @@ class BeamSlabs {
                 exit_origin_[axis] = beam.origin_high[axis];
                 set_exit(axis, false, 1 / high);
             }
-            if (low + high < 0) flip_ |= 1U << axis;
+            if (low + high < 0) flip_ ^= 1U << axis;
         }
     }
 
-    /// Octant o ^ flip() for o = 0..7 is an order from near to far.
+    /// Octant o ^ flip() for o = 0..7 is an order from near to far (or from far to near).
     unsigned flip() const { return flip_; }
 
     /// The octants of the voxel that the beam may meet; `entry` takes lower bounds of t.
@@ -99,7 +102,7 @@ class BeamSlabs {
     float exit_scale_[3];
     float exit_add_[3];
     float other_entry_scale_[3];
-    unsigned flip_ = 0;
+    unsigned flip_;
 };
 
 /// Bit i of the result is bit i ^ flip of the 8 bits.
@@ -110,21 +113,28 @@ HWY_INLINE std::uint32_t flipped(std::uint32_t bits, unsigned flip) {
     return bits;
 }
 
-/// Calls `leaf(items, count, entry)` for each leaf that the beam may meet, from near to far, until
-/// it returns true; then returns true. `skip(entry)`: whether nothing from t = entry on matters.
+/// Calls `leaf(items, count, entry)` for each leaf that the beam may meet, in the beam's order,
+/// until it returns true; then returns true. `skip(entry)`: whether nothing from t = entry on
+/// matters.
 template <bool kStraddles, typename Skip, typename Leaf>
 HWY_INLINE bool walk_beam(const CompactOctree& octree, const BeamSlabs<kStraddles>& slabs,
                           Skip&& skip, Leaf&& leaf) {
-    struct Entry {
-        float low[3];
-        float high[3];
+    // On the stack a voxel is its low faces, a word of no meaning, its high faces and another:
+    // apart from the rest, so that it is written and read by whole registers.
+    struct alignas(32) Voxel {
+        float face[8];
+    };
+    struct Place {
         float t;
         std::uint32_t node;
     };
-    Entry stack[7 * CompactOctree::kMaxDepth + 1];
+    constexpr int kStack = 7 * CompactOctree::kMaxDepth + 1;
+    Voxel voxels[kStack];
+    Place places[kStack];
     const CompactNode* const nodes = octree.nodes.data();
     const auto& [low, high] = octree.bounds;
-    Entry at{{low.x, low.y, low.z}, {high.x, high.y, high.z}, 0, 0};
+    Voxel voxel{{low.x, low.y, low.z, 0, high.x, high.y, high.z, 0}};
+    Place at{0, 0};
     int waiting = 0;
     for (;;) {
         const CompactNode& node = nodes[at.node];
@@ -132,28 +142,29 @@ HWY_INLINE bool walk_beam(const CompactOctree& octree, const BeamSlabs<kStraddle
         if (node.is_leaf()) {
             if (leaf(octree.items.data() + node.first_item(), node.item_count(), at.t)) return true;
         } else {
+            hwy::Prefetch(nodes + node.first_child());
             float entry[8];
-            ahead = slabs.meets(at.low, node.cut, at.high, entry) & node.mask();
+            ahead = slabs.meets(voxel.face, node.cut, voxel.face + 4, entry) & node.mask();
             ahead = flipped(ahead, slabs.flip());
+            const OctantFloats faces = OctantFloats::load(voxel.face);
+            const OctantFloats cut = OctantFloats::load_4_again(node.cut);
             // The farthest first, so that the nearest is taken up next.
             while (ahead != 0) {
                 const auto order = static_cast<unsigned>(31 - std::countl_zero(ahead));
                 const unsigned octant = order ^ slabs.flip();
                 ahead ^= 1U << order;
-                Entry& next = stack[waiting++];
-                for (int axis = 0; axis < 3; ++axis) {
-                    const bool upper = (octant >> axis & 1) != 0;
-                    next.low[axis] = upper ? node.cut[axis] : at.low[axis];
-                    next.high[axis] = upper ? at.high[axis] : node.cut[axis];
-                }
-                next.t = entry[octant];
-                next.node = node.child(octant);
+                // Upper on an axis: the cut is the low face; else the high one.
+                const std::uint32_t moved = octant | (~octant & 7) << 4;
+                select(LaneMask<float, 8>::from_bits(moved), cut, faces)
+                    .store(voxels[waiting].face);
+                places[waiting++] = {entry[octant], node.child(octant)};
             }
         }
         do {
             if (waiting == 0) return false;
-            at = stack[--waiting];
+            at = places[--waiting];
         } while (skip(at.t));
+        voxel = voxels[waiting];
     }
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
-#include <vector>
-
+#include "big_vector.h"
 #include "fast_scene.h"
 #include "tile.h"
 
@@ -33,6 +32,7 @@ struct alignas(64) CameraSphere {
     float inverse_power;  ///< 1 / (f.f - r^2); its sign tells which root is hit
     float power_error;    ///< relative, of inverse_power
     float nearest;        ///< bounds 1 / (least distance from the camera) from above; inf: inside
+    float distance;       ///< |f|, rounded up
     float cross_error;    ///< bounds the error of f x d in double on each axis, over the picture
     bool exactly;         ///< floats cannot tell: an ellipsoid, or the camera is at the surface
 };
@@ -40,14 +40,14 @@ static_assert(sizeof(CameraSphere) == 64);
 
 /// Made anew for each picture.
 struct CameraTables {
-    CameraTables(const FastScene& scene, const CameraRays& camera);
+    CameraTables(const FastScene& scene, const CameraRays& camera, InstructionSet isa);
 
     std::size_t memory_bytes() const {
         return triangles.size() * sizeof(CameraTriangle) + spheres.size() * sizeof(CameraSphere);
     }
 
-    std::vector<CameraTriangle> triangles;  ///< by slot
-    std::vector<CameraSphere> spheres;      ///< by slot - triangle_end()
+    BigVector<CameraTriangle> triangles;  ///< by slot
+    BigVector<CameraSphere> spheres;      ///< by slot - triangle_end()
 };
 
 }  // namespace nuvo

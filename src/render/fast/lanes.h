@@ -101,6 +101,17 @@ struct Lanes : LaneShape<T, N> {
             v.part[i] = hn::LoadU(Tag(), from + i * Shape::kPart);
         return v;
     }
+    /// Four numbers, again and again.
+    static HWY_INLINE Lanes load_4_again(const T* from) {
+        Lanes v;
+        for (std::size_t i = 0; i < Shape::kParts; ++i) {
+            if constexpr (Shape::kPart >= 4)
+                v.part[i] = hn::LoadDup128(Tag(), from);
+            else
+                v.part[i] = hn::LoadU(Tag(), from + i * Shape::kPart % 4);
+        }
+        return v;
+    }
     HWY_INLINE void store(T* to) const {
         for (std::size_t i = 0; i < Shape::kParts; ++i)
             hn::StoreU(part[i], Tag(), to + i * Shape::kPart);
@@ -109,6 +120,13 @@ struct Lanes : LaneShape<T, N> {
     HWY_INLINE void store(T* to, const Mask& mask) const {
         for (std::size_t i = 0; i < Shape::kParts; ++i)
             hn::BlendedStore(part[i], mask.part[i], Tag(), to + i * Shape::kPart);
+    }
+    /// The lanes of `mask` side by side; returns their number. Up to N lanes are written.
+    HWY_INLINE std::size_t compress_store(T* to, const Mask& mask) const {
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < Shape::kParts; ++i)
+            count += hn::CompressStore(part[i], mask.part[i], Tag(), to + count);
+        return count;
     }
     /// base[index[lane]]; indices of lanes that are not wanted must be valid, too.
     static HWY_INLINE Lanes gather(const T* base,

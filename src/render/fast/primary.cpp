@@ -7,6 +7,8 @@
 #define HWY_TARGET_INCLUDE "fast/primary.cpp"
 #include <hwy/foreach_target.h>
 
+#include <hwy/cache_control.h>
+
 #include "fast/beam.h"
 #include "fast/lanes.h"
 #include "fast/primary_lanes.h"
@@ -24,25 +26,20 @@ class PrimaryTracer {
   public:
     PrimaryTracer(PrimaryJob& job, Tile& tile) : job_(job), tile_(tile), lanes_(job.camera, tile) {
         clear();
+        if (!job.tables.spheres.empty()) directions_.fill(lanes_);
     }
 
     void run() {
         job_.mailbox.start();
-        const Slot triangle_end = job_.scene.triangle_end();
         walk_beam(
             job_.scene.octree(), lanes_.beam,
             [&](float entry) HWY_ATTR { return entry * tile_near_ > 1 + kEntryRounding; },
             [&](const std::uint32_t* items, std::uint32_t count, float) HWY_ATTR {
-                for (std::uint32_t i = 0; i < count; ++i) {
-                    const Slot slot = items[i];
-                    if (job_.mailbox.seen(slot)) continue;
-                    if (slot < triangle_end)
-                        test_triangle(slot);
-                    else
-                        test_sphere(slot);
-                }
+                for (std::uint32_t i = 0; i < count; ++i)
+                    if (!job_.mailbox.seen(items[i])) enqueue(items[i]);
                 return false;
             });
+        while (tested_ != queued_) test(queue_[tested_++ % kQueue]);
         finish();
     }
 
@@ -85,11 +82,34 @@ class PrimaryTracer {
             tile_.hit[b] = static_cast<std::uint16_t>((Ints::load(slots(b)) != none_).bits());
     }
 
+    // An item waits until its record has come from memory.
+    HWY_INLINE void enqueue(Slot slot) {
+        const Slot triangle_end = job_.scene.triangle_end();
+        if (slot < triangle_end)
+            hwy::Prefetch(job_.tables.triangles.data() + slot);
+        else
+            hwy::Prefetch(job_.tables.spheres.data() + (slot - triangle_end));
+        queue_[queued_++ % kQueue] = slot;
+        if (queued_ - tested_ == kQueue) test(queue_[tested_++ % kQueue]);
+    }
+
+    HWY_INLINE void test(Slot slot) {
+        if (slot < job_.scene.triangle_end())
+            test_triangle(slot);
+        else
+            test_sphere(slot);
+    }
+
     HWY_INLINE void test_triangle(Slot slot) {
         const CameraTriangle& t = job_.tables.triangles[slot];
         const Floats4 center =
             mul_add(Floats4::load(t.b), Floats4(lanes_.center_y),
                     mul_add(Floats4::load(t.a), Floats4(lanes_.center_x), Floats4::load(t.c)));
+        // Nothing to do where a function is surely below its least value all over the tile.
+        const Floats4 half_tile =
+            (abs(Floats4::load(t.a)) + abs(Floats4::load(t.b))) * Floats4(TileRays::kHalfTile);
+        const Floats4 most_of_tile = center + half_tile + Floats4::load(t.e);
+        if ((most_of_tile < Floats4::load(least_)).any()) return;
         float at[4];
         center.store(at);
         const float edge_error = std::max(t.e[0], std::max(t.e[1], t.e[2]));
@@ -140,38 +160,40 @@ class PrimaryTracer {
 
     HWY_INLINE void test_sphere(Slot slot) {
         const CameraSphere& s = job_.tables.spheres[slot - job_.scene.triangle_end()];
+        if (surely_passed(s, lanes_, tile_near_)) return;
         const SphereOverTile sphere(s, lanes_);
         std::uint32_t blocks = sphere.blocks(s, block_near_);
+        if (blocks == 0) return;
+        const SphereOffsets offsets(sphere);
         for (; blocks != 0; blocks &= blocks - 1) {
             const int b = std::countr_zero(blocks);
-            const SphereHits hits(s, sphere, lanes_, b);
-            const Candidates found(tile_, b, hits.low, hits.high);
-            RayMask sure = hits.meets & found.surely_nearer;
-            if (s.exactly) sure = RayMask::from_bits(0);
-            const RayMask open =
-                s.exactly ? hits.perhaps : without(hits.perhaps & found.perhaps_nearer, sure);
-            const std::uint32_t open_bits = open.bits() & tile_.inside[b];
-            const bool any_sure = sure.any();
-            if (any_sure) {
-                found.store(tile_, b, sure, slot);
-                hits.store_normal(s, sphere, tile_, b, sure);
-            }
-            if (open_bits != 0) decide_sphere(slot, s, sphere, hits, b, open, open_bits);
-            if (any_sure || open_bits != 0) update_near(b);
+            const SphereDiscriminant found(s, sphere, offsets, directions_, b);
+            if (found.perhaps.any()) take_sphere(slot, s, sphere, offsets, found, b);
         }
     }
 
-    void decide_sphere(Slot slot, const CameraSphere& s, const SphereOverTile& sphere,
-                       const SphereHits& hits, int b, const RayMask& open,
-                       std::uint32_t open_bits) {
-        if (job_.redo_exactly || s.exactly) {
-            decide(slot, b, open_bits);
-            return;
-        }
+    HWY_INLINE void take_sphere(Slot slot, const CameraSphere& s, const SphereOverTile& sphere,
+                                const SphereOffsets& offsets, const SphereDiscriminant& line,
+                                int b) {
+        const SphereHits hits(s, sphere, offsets, line, b);
         const Candidates found(tile_, b, hits.low, hits.high);
-        const RayMask taken = open & (hits.discriminant >= Floats(0.0F)) & found.perhaps_nearer;
-        found.store(tile_, b, taken, slot);
-        hits.store_normal(s, sphere, tile_, b, taken);
+        RayMask sure = line.meets & found.surely_nearer;
+        RayMask open = without(line.perhaps & found.perhaps_nearer, sure);
+        if (s.exactly) {
+            sure = RayMask::from_bits(0);
+            open = line.perhaps;
+        } else if (!job_.redo_exactly) {
+            sure = sure | (open & (line.value >= Floats(0.0F)));
+            open = RayMask::from_bits(0);
+        }
+        const std::uint32_t open_bits = open.bits() & tile_.inside[b];
+        const bool any_sure = sure.any();
+        if (any_sure) {
+            found.store(tile_, b, sure, slot);
+            hits.store_normal(s, sphere, offsets, directions_, tile_, b, sure);
+        }
+        if (open_bits != 0) decide(slot, b, open_bits);
+        if (any_sure || open_bits != 0) update_near(b);
     }
 
     // Lane by lane, exactly.
@@ -194,13 +216,20 @@ class PrimaryTracer {
     HWY_INLINE void update_near(int b) {
         block_near_[b] = lowest(Floats::load(tile_.near_low + b * kBlockLanes));
         tile_near_ = lowest(Floats::load(block_near_));
+        least_[3] = tile_near_;
     }
 
     PrimaryJob& job_;
     Tile& tile_;
+    static constexpr std::uint32_t kQueue = 16;
+    Slot queue_[kQueue];
+    std::uint32_t queued_ = 0;
+    std::uint32_t tested_ = 0;
     TileRays lanes_;
+    TileDirections directions_;                  // of scenes with spheres
     alignas(64) float block_near_[kTileBlocks];  // the least near_low of a block
     float tile_near_ = 0;                        // the least of these
+    float least_[4] = {};                        // of u, v, w and q that matter
 };
 
 void trace_primary(PrimaryJob& job, Tile& tile) { PrimaryTracer(job, tile).run(); }

@@ -38,6 +38,10 @@ struct TileRays {
         longest = static_cast<float>(
             (length(center) + (kHalfTile + 1) * (length(rays.right) + length(rays.down))) *
             (1 + 0x1p-20));
+        half_width = static_cast<float>(kHalfTile * (length(rays.right) + length(rays.down))) *
+                         (1 + 0x1p-20F) +
+                     longest * 0x1p-20F;
+        for (int axis = 0; axis < 3; ++axis) center_float[axis] = static_cast<float>(center[axis]);
         fill_beam();
     }
 
@@ -54,21 +58,13 @@ struct TileRays {
     static HWY_INLINE Floats lane_x() { return block_x() * Floats(0.25F); }
     static HWY_INLINE Floats lane_y() { return block_y() * Floats(0.25F); }
 
-    /// One component of the directions of a block's rays: two roundings of each term.
-    HWY_INLINE Floats direction(int axis, int block) const {
-        const float x = 4.0F * static_cast<float>(block % 4) - 6.0F;
-        const float y = 4.0F * static_cast<float>(block / 4) - 6.0F;
-        const auto right = static_cast<float>(camera.right[axis]);
-        const auto down = static_cast<float>(camera.down[axis]);
-        const Floats at(static_cast<float>(center[axis]));
-        return mul_add(lane_x() + Floats(x), Floats(right),
-                       mul_add(lane_y() + Floats(y), Floats(down), at));
-    }
     const CameraRays& camera;
     Vector3 center;  ///< the direction through the middle of the tile
     float center_x;  ///< that middle's pixel coordinates
     float center_y;
-    float longest;  ///< bounds |d| over the tile
+    float longest;     ///< bounds |d| over the tile
+    float half_width;  ///< bounds |d - center| over the tile, with 16 roundings of d to spare
+    float center_float[3];
     BeamBox beam;
 
   private:
@@ -91,6 +87,29 @@ struct TileRays {
         beam.keep_off_zero();
     }
     static constexpr float kLargestT = 0x1p100F;
+};
+
+/// The directions of all rays of a tile: two roundings of each term.
+struct TileDirections {
+    void fill(const TileRays& rays) {
+        for (int b = 0; b < kTileBlocks; ++b) {
+            const Floats x = TileRays::lane_x() + Floats(4.0F * static_cast<float>(b % 4) - 6.0F);
+            const Floats y = TileRays::lane_y() + Floats(4.0F * static_cast<float>(b / 4) - 6.0F);
+            Floats sum(0.0F);
+            for (int axis = 0; axis < 3; ++axis) {
+                const auto right = static_cast<float>(rays.camera.right[axis]);
+                const auto down = static_cast<float>(rays.camera.down[axis]);
+                const Floats at(static_cast<float>(rays.center[axis]));
+                const Floats value = mul_add(x, Floats(right), mul_add(y, Floats(down), at));
+                value.store(d[axis] + b * kBlockLanes);
+                sum = mul_add(value, value, sum);
+            }
+            sum.store(square + b * kBlockLanes);
+        }
+    }
+
+    alignas(64) float d[3][kTileLanes];
+    alignas(64) float square[kTileLanes];  ///< |d|^2
 };
 
 /// Bounds on 1 / t of a candidate against those of the nearest so far.
@@ -179,33 +198,68 @@ struct SphereOverTile {
     float root_error;  ///< of the discriminant's square root, at most
 };
 
-/// 16 rays against a sphere: a r^2 - |f x d|^2 is the discriminant, 1 / t = (-b +- root) / (f.f -
-/// r^2).
-struct SphereHits {
-    HWY_INLINE SphereHits(const CameraSphere& s, const SphereOverTile& over, const TileRays& rays,
-                          int block) {
-        const Floats x = TileRays::lane_x() + Floats(4.0F * static_cast<float>(block % 4) - 6.0F);
-        const Floats y = TileRays::lane_y() + Floats(4.0F * static_cast<float>(block / 4) - 6.0F);
-        Floats mm(0.0F);
-        square = Floats(0.0F);
-        for (int axis = 0; axis < 3; ++axis) {
-            d[axis] = rays.direction(axis, block);
-            m[axis] = mul_add(x, Floats(over.m_right[axis]),
-                              mul_add(y, Floats(over.m_down[axis]), Floats(over.m[axis])));
-            square = mul_add(d[axis], d[axis], square);
-            mm = mul_add(m[axis], m[axis], mm);
+/// Whether no ray of the tile comes near the sphere, or it is surely not nearer than `near`: cheap.
+HWY_INLINE bool surely_passed(const CameraSphere& s, const TileRays& rays, float near) {
+    if (s.nearest * rays.longest < near) return true;
+    float f[3];
+    for (int axis = 0; axis < 3; ++axis) f[axis] = static_cast<float>(s.from[axis]);
+    const float x = f[1] * rays.center_float[2] - f[2] * rays.center_float[1];
+    const float y = f[2] * rays.center_float[0] - f[0] * rays.center_float[2];
+    const float z = f[0] * rays.center_float[1] - f[1] * rays.center_float[0];
+    // |f x d| varies by at most |f| times the tile's half width; its error is 4 roundings a term.
+    const float bound = s.radius * rays.longest + s.distance * rays.half_width;
+    return x * x + y * y + z * z > bound * bound * (1 + 8 * SphereOverTile::kRoundoff);
+}
+
+/// f x d and f . d at the centres of the blocks, and what a lane adds to them.
+struct SphereOffsets {
+    explicit HWY_INLINE SphereOffsets(const SphereOverTile& over) {
+        for (int i = 0; i < 3; ++i) {
+            SphereOverTile::at_blocks(over.m[i], over.m_right[i], over.m_down[i]).store(block[i]);
+            lane[i] = at_lanes(over.m_right[i], over.m_down[i]);
         }
-        discriminant = square * Floats(s.radius * s.radius) - mm;
-        const Floats error(over.square_error);
-        meets = discriminant > error;
-        perhaps = discriminant >= -error;
-        const Floats positive = max(discriminant, Floats(0.0F));
+        SphereOverTile::at_blocks(over.b, over.b_right, over.b_down).store(block[3]);
+        lane[3] = at_lanes(over.b_right, over.b_down);
+    }
+    static HWY_INLINE Floats at_lanes(float right, float down) {
+        return mul_add(TileRays::lane_x(), Floats(right), TileRays::lane_y() * Floats(down));
+    }
+    HWY_INLINE Floats value(int i, int b) const { return Floats(block[i][b]) + lane[i]; }
+
+    alignas(64) float block[4][kTileBlocks];
+    Floats lane[4];
+};
+
+/// Whether 16 rays' lines meet a sphere: the discriminant is |d|^2 r^2 - |f x d|^2.
+struct SphereDiscriminant {
+    HWY_INLINE SphereDiscriminant(const CameraSphere& s, const SphereOverTile& over,
+                                  const SphereOffsets& offsets, const TileDirections& directions,
+                                  int b) {
+        const Floats x = offsets.value(0, b);
+        const Floats y = offsets.value(1, b);
+        const Floats z = offsets.value(2, b);
+        const Floats square = Floats::load(directions.square + b * kBlockLanes);
+        value = neg_mul_add(
+            x, x, neg_mul_add(y, y, neg_mul_add(z, z, square * Floats(s.radius * s.radius))));
+        meets = value > Floats(over.square_error);
+        perhaps = value >= Floats(-over.square_error);
+    }
+
+    Floats value;
+    RayMask meets;
+    RayMask perhaps;
+};
+
+/// Where they do: 1 / t = (-b +- root) / (f.f - r^2).
+struct SphereHits {
+    HWY_INLINE SphereHits(const CameraSphere& s, const SphereOverTile& over,
+                          const SphereOffsets& offsets, const SphereDiscriminant& line, int b) {
+        const Floats positive = max(line.value, Floats(0.0F));
         root = sqrt(positive);
         if (s.inverse_power < 0) root = -root;  // from inside the far one
-        root_error = min(error * above_inverse_sqrt(positive), Floats(over.root_error));
-        const Floats b =
-            mul_add(x, Floats(over.b_right), mul_add(y, Floats(over.b_down), Floats(over.b)));
-        const Floats q = (root - b) * Floats(s.inverse_power);
+        root_error =
+            min(Floats(over.square_error) * above_inverse_sqrt(positive), Floats(over.root_error));
+        const Floats q = (root - offsets.value(3, b)) * Floats(s.inverse_power);
         const Floats q_error =
             (root_error + Floats(over.b_error)) *
                 Floats(std::fabs(s.inverse_power) * (1 + 8 * SphereOverTile::kRoundoff)) +
@@ -214,32 +268,34 @@ struct SphereHits {
         high = q + q_error;
     }
 
-    /// (f + t d) / r = (d x m - root d) / (a r).
-    HWY_INLINE void store_normal(const CameraSphere& s, const SphereOverTile& over, Tile& tile,
-                                 int block, const RayMask& mask) const {
+    /// The unit normal (f + t d) / r = (d x m - root d) / (|d|^2 r) with m = f x d.
+    HWY_INLINE void store_normal(const CameraSphere& s, const SphereOverTile& over,
+                                 const SphereOffsets& offsets, const TileDirections& directions,
+                                 Tile& tile, int b, const RayMask& mask) const {
+        const Floats square = Floats::load(directions.square + b * kBlockLanes);
         const Floats inverse = Floats(1.0F) / (square * Floats(s.radius));
+        Floats d[3];
+        Floats m[3];
+        for (int axis = 0; axis < 3; ++axis) {
+            d[axis] = Floats::load(directions.d[axis] + b * kBlockLanes);
+            m[axis] = offsets.value(axis, b);
+        }
         for (int axis = 0; axis < 3; ++axis) {
             const int next = (axis + 1) % 3;
             const int last = (axis + 2) % 3;
             const Floats across = neg_mul_add(d[last], m[next], d[next] * m[last]);
             const Floats n = neg_mul_add(root, d[axis], across) * inverse;
-            n.store(tile.round_normal[axis] + block * kBlockLanes, mask);
+            n.store(tile.round_normal[axis] + b * kBlockLanes, mask);
         }
         const Floats error = mul_add((root_error + Floats(over.normal_error)) * sqrt(square),
                                      inverse, Floats(16 * SphereOverTile::kRoundoff));
-        error.store(tile.round_error + block * kBlockLanes, mask);
+        error.store(tile.round_error + b * kBlockLanes, mask);
     }
 
-    Floats d[3];
-    Floats m[3];
-    Floats square;  ///< |d|^2
-    Floats discriminant;
     Floats root;
     Floats root_error;
     Floats low;
     Floats high;
-    RayMask meets;
-    RayMask perhaps;
 };
 
 }  // namespace nuvo::HWY_NAMESPACE

@@ -1,0 +1,361 @@
+#include "embree_frame.h"
+
+#include <immintrin.h>
+
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <thread>
+
+#include "embree_shading.h"
+
+namespace nuvo::bench {
+namespace {
+
+constexpr int kTileSide = 32;
+constexpr int kTilePixels = kTileSide * kTileSide;
+
+/// Shadow rays start this part of the scene's largest coordinate away from the surface: four units
+/// in the last place, which covers the rounding of a hit point in single precision.
+constexpr float kBias = 0x1p-21F;
+
+/// A packet covers a block of pixels as square as can be.
+template <int N>
+struct Block {
+    static constexpr int kWidth = N == 16 || N == 8 ? 4 : N == 4 ? 2 : 1;
+    static constexpr int kHeight = N / kWidth;
+};
+
+/// What Embree's manual asks of a thread that traces; put back afterwards.
+class FlushDenormals {
+  public:
+    FlushDenormals() : before_(_mm_getcsr()) { _mm_setcsr(before_ | kFlushAndZero); }
+    FlushDenormals(const FlushDenormals&) = delete;
+    FlushDenormals& operator=(const FlushDenormals&) = delete;
+    ~FlushDenormals() { _mm_setcsr(before_); }
+
+  private:
+    static constexpr unsigned kFlushAndZero = 0x8040;
+    unsigned before_;
+};
+
+RTCIntersectContext context_for(bool coherent) {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags =
+        coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    return context;
+}
+
+template <int N>
+void intersect(const int* valid, RTCScene scene, RTCIntersectContext& context,
+               RTCRayHitNt<N>& pack) {
+    if constexpr (N == 1) rtcIntersect1(scene, &context, reinterpret_cast<RTCRayHit*>(&pack));
+    if constexpr (N == 4)
+        rtcIntersect4(valid, scene, &context, reinterpret_cast<RTCRayHit4*>(&pack));
+    if constexpr (N == 8)
+        rtcIntersect8(valid, scene, &context, reinterpret_cast<RTCRayHit8*>(&pack));
+    if constexpr (N == 16)
+        rtcIntersect16(valid, scene, &context, reinterpret_cast<RTCRayHit16*>(&pack));
+}
+
+template <int N>
+void occluded(const int* valid, RTCScene scene, RTCIntersectContext& context, RTCRayNt<N>& pack) {
+    if constexpr (N == 1) rtcOccluded1(scene, &context, reinterpret_cast<RTCRay*>(&pack));
+    if constexpr (N == 4) rtcOccluded4(valid, scene, &context, reinterpret_cast<RTCRay4*>(&pack));
+    if constexpr (N == 8) rtcOccluded8(valid, scene, &context, reinterpret_cast<RTCRay8*>(&pack));
+    if constexpr (N == 16)
+        rtcOccluded16(valid, scene, &context, reinterpret_cast<RTCRay16*>(&pack));
+}
+
+/// A hit with all that lighting needs.
+struct LitPoint {
+    Float3 point;
+    Float3 normal;     // of shading
+    Float3 geometric;  // unit
+    Float3 to_viewer;
+    Float3 color;
+    std::uint32_t pixel;  // in the tile
+    std::uint32_t material;
+};
+
+/// A shadow ray that has been found worth tracing.
+struct ShadowRay {
+    Float3 origin;
+    Float3 direction;
+    float distance;
+    float strength;
+    std::uint32_t lit;  // place among the tile's lit points
+};
+
+/// Normal and material of a hit. `hit` is its place in the packet.
+template <int N>
+LitPoint lit_point(const EmbreeScene& scene, const RTCRayHitNt<N>& pack, int i) {
+    const FloatScene& floats = scene.floats();
+    const Float3 direction{pack.ray.dir_x[i], pack.ray.dir_y[i], pack.ray.dir_z[i]};
+    const Float3 origin{pack.ray.org_x[i], pack.ray.org_y[i], pack.ray.org_z[i]};
+    const std::uint32_t primitive = pack.hit.primID[i];
+    LitPoint lit;
+    lit.point = origin + direction * pack.ray.tfar[i];
+    lit.to_viewer = -direction;
+    if (pack.hit.geomID[i] == scene.sphere_geometry()) {
+        const std::array<float, 4>& s = floats.spheres[primitive];
+        lit.normal = (lit.point - Float3{s[0], s[1], s[2]}) * (1 / s[3]);
+        lit.geometric = lit.normal;
+        lit.material = floats.sphere_material[primitive];
+    } else {
+        lit.geometric = unit(Float3{pack.hit.Ng_x[i], pack.hit.Ng_y[i], pack.hit.Ng_z[i]});
+        lit.normal = lit.geometric;
+        lit.material = floats.triangle_material[primitive];
+        if (!floats.normals.empty()) {
+            const IndexTriple& n = floats.normal_triangles[primitive];
+            const float u = pack.hit.u[i];
+            const float v = pack.hit.v[i];
+            if (n[0] != FloatScene::kFlat)
+                lit.normal = unit(floats.normals[n[0]] * (1 - u - v) + floats.normals[n[1]] * u +
+                                  floats.normals[n[2]] * v);
+        }
+    }
+    lit.color = floats.materials[lit.material].emissive;
+    return lit;
+}
+
+}  // namespace
+
+/// The buffers of one tile; every thread has one.
+struct EmbreeFrame::Tile {
+    int x0 = 0;
+    int y0 = 0;
+    int lit_count = 0;
+    int shadow_count = 0;
+    std::array<LitPoint, kTilePixels> lit;
+    std::array<ShadowRay, kTilePixels> shadows;
+    std::array<bool, kTilePixels> blocked;
+};
+
+EmbreeFrame::EmbreeFrame(const EmbreeScene& scene, Resolution resolution)
+    : scene_(scene), resolution_(resolution) {
+    // Eq. 29 to 35 as in RayGenerator, linear in the pixel.
+    const Camera& camera = scene.floats().camera;
+    const double width = resolution.width;
+    const double height = resolution.height;
+    const double half = std::tan(camera.field_of_view_rad / 2) / std::min(width, height);
+    const Vector3 across = camera.right * (2 * half);
+    const Vector3 down = camera.up * (-2 * half);
+    eye_ = Float3(camera.position);
+    across_ = Float3(across);
+    down_ = Float3(down);
+    corner_ = Float3(camera.forward - across * (width / 2) - down * (height / 2));
+    bias_ = kBias * scene.floats().largest_coordinate;
+}
+
+template <int N>
+void EmbreeFrame::make_rays(int x0, int y0, RTCRayHitNt<N>& pack, std::array<int, N>& valid) const {
+    for (int i = 0; i < N; ++i) {
+        const int x = x0 + i % Block<N>::kWidth;
+        const int y = y0 + i / Block<N>::kWidth;
+        const float px = static_cast<float>(x) + 0.5F;
+        const float py = static_cast<float>(y) + 0.5F;
+        const Float3 d = corner_ + across_ * px + down_ * py;
+        const float scale = 1 / std::sqrt(dot(d, d));
+        valid[i] = x < resolution_.width && y < resolution_.height ? -1 : 0;
+        pack.ray.org_x[i] = eye_.x;
+        pack.ray.org_y[i] = eye_.y;
+        pack.ray.org_z[i] = eye_.z;
+        pack.ray.tnear[i] = 0;
+        pack.ray.dir_x[i] = d.x * scale;
+        pack.ray.dir_y[i] = d.y * scale;
+        pack.ray.dir_z[i] = d.z * scale;
+        pack.ray.time[i] = 0;
+        pack.ray.tfar[i] = std::numeric_limits<float>::infinity();
+        pack.ray.mask[i] = ~0U;
+        pack.ray.flags[i] = 0;
+        pack.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+    }
+}
+
+template <int N>
+void EmbreeFrame::trace_primary(Tile& tile, const EmbreeMode& mode, Depth depth,
+                                Image& image) const {
+    RTCIntersectContext context = context_for(mode.primary_coherent);
+    alignas(64) RTCRayHitNt<N> pack;
+    alignas(64) std::array<int, N> valid;
+    tile.lit_count = 0;
+    for (int block = 0; block < kTilePixels / N; ++block) {
+        constexpr int kAcross = kTileSide / Block<N>::kWidth;
+        const int x0 = tile.x0 + block % kAcross * Block<N>::kWidth;
+        const int y0 = tile.y0 + block / kAcross * Block<N>::kHeight;
+        if (x0 >= resolution_.width || y0 >= resolution_.height) continue;
+        make_rays<N>(x0, y0, pack, valid);
+        intersect<N>(valid.data(), scene_.handle(), context, pack);
+        if (depth == Depth::kPrimary) continue;
+        for (int i = 0; i < N; ++i) {
+            if (valid[i] == 0) continue;
+            const int x = x0 + i % Block<N>::kWidth;
+            const int y = y0 + i / Block<N>::kWidth;
+            if (pack.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID) {
+                LitPoint& lit = tile.lit[tile.lit_count++];
+                lit = lit_point<N>(scene_, pack, i);
+                lit.pixel = (y - tile.y0) * kTileSide + (x - tile.x0);
+            } else if (depth == Depth::kWhole) {
+                image.at(x, y) = to_bytes(background(scene_.floats(), pack.ray.dir_y[i]));
+            }
+        }
+    }
+}
+
+template <int N>
+void EmbreeFrame::trace_shadow_packets(Tile& tile, const EmbreeMode& mode) const {
+    RTCIntersectContext context = context_for(mode.shadow_coherent);
+    alignas(64) RTCRayNt<N> pack;
+    alignas(64) std::array<int, N> valid;
+    for (int first = 0; first < tile.shadow_count; first += N) {
+        for (int i = 0; i < N; ++i) {
+            const bool used = first + i < tile.shadow_count;
+            const ShadowRay& ray = tile.shadows[used ? first + i : first];
+            valid[i] = used ? -1 : 0;
+            pack.org_x[i] = ray.origin.x;
+            pack.org_y[i] = ray.origin.y;
+            pack.org_z[i] = ray.origin.z;
+            pack.tnear[i] = 0;
+            pack.dir_x[i] = ray.direction.x;
+            pack.dir_y[i] = ray.direction.y;
+            pack.dir_z[i] = ray.direction.z;
+            pack.time[i] = 0;
+            pack.tfar[i] = ray.distance;
+            pack.mask[i] = ~0U;
+            pack.flags[i] = 0;
+        }
+        occluded<N>(valid.data(), scene_.handle(), context, pack);
+        for (int i = 0; i < N && first + i < tile.shadow_count; ++i)
+            tile.blocked[first + i] = pack.tfar[i] < 0;
+    }
+}
+
+namespace {
+
+/// The shadow rays of one light that are worth tracing.
+int collect_shadow_rays(const FloatScene& scene, const FloatLight& light, float bias,
+                        const LitPoint* lit, int lit_count, ShadowRay* shadows) {
+    int count = 0;
+    for (int i = 0; i < lit_count; ++i) {
+        const LitPoint& at = lit[i];
+        const FloatSample seen = sample(light, at.point);
+        if (!(seen.strength > 0)) continue;
+        if (!adds_light(light, scene.materials[at.material], dot(at.normal, seen.to_light)))
+            continue;
+        const float side = dot(at.geometric, seen.to_light) < 0 ? -bias : bias;
+        shadows[count++] = {at.point + at.geometric * side, seen.to_light, seen.distance,
+                            seen.strength, static_cast<std::uint32_t>(i)};
+    }
+    return count;
+}
+
+}  // namespace
+
+void EmbreeFrame::trace_shadows(Tile& tile, const EmbreeMode& mode) const {
+    switch (mode.shadow_width) {
+        case 1:
+            return trace_shadow_packets<1>(tile, mode);
+        case 4:
+            return trace_shadow_packets<4>(tile, mode);
+        case 8:
+            return trace_shadow_packets<8>(tile, mode);
+        default:
+            return trace_shadow_packets<16>(tile, mode);
+    }
+}
+
+void EmbreeFrame::add_light(Tile& tile, const FloatLight& light) const {
+    const FloatScene& floats = scene_.floats();
+    for (int i = 0; i < tile.shadow_count; ++i) {
+        if (tile.blocked[i]) continue;
+        const ShadowRay& ray = tile.shadows[i];
+        LitPoint& at = tile.lit[ray.lit];
+        at.color += contribution(light, floats.materials[at.material], at.normal, ray.direction,
+                                 at.to_viewer, ray.strength);
+    }
+}
+
+void EmbreeFrame::render_tile(Tile& tile, const EmbreeMode& mode, Depth depth, Image& image) const {
+    switch (mode.primary_width) {
+        case 1:
+            trace_primary<1>(tile, mode, depth, image);
+            break;
+        case 4:
+            trace_primary<4>(tile, mode, depth, image);
+            break;
+        case 8:
+            trace_primary<8>(tile, mode, depth, image);
+            break;
+        default:
+            trace_primary<16>(tile, mode, depth, image);
+    }
+    if (depth == Depth::kPrimary) return;
+    const FloatScene& floats = scene_.floats();
+    for (const FloatLight& light : floats.lights) {
+        tile.shadow_count = collect_shadow_rays(floats, light, bias_, tile.lit.data(),
+                                                tile.lit_count, tile.shadows.data());
+        tile.blocked.fill(false);
+        if (light.casts_shadow) trace_shadows(tile, mode);
+        if (depth == Depth::kWhole) add_light(tile, light);
+    }
+    if (depth != Depth::kWhole) return;
+    for (int i = 0; i < tile.lit_count; ++i) {
+        const LitPoint& at = tile.lit[i];
+        const int pixel = static_cast<int>(at.pixel);
+        image.at(tile.x0 + pixel % kTileSide, tile.y0 + pixel / kTileSide) = to_bytes(at.color);
+    }
+}
+
+Image EmbreeFrame::render(const EmbreeMode& mode, Depth depth, int threads) const {
+    Image image(resolution_.width, resolution_.height);
+    const int across = (resolution_.width + kTileSide - 1) / kTileSide;
+    const int tiles = across * ((resolution_.height + kTileSide - 1) / kTileSide);
+    std::atomic<int> next{0};
+    const auto work = [&] {
+        const FlushDenormals flush;
+        const auto tile = std::make_unique<Tile>();
+        for (int i = next++; i < tiles; i = next++) {
+            tile->x0 = i % across * kTileSide;
+            tile->y0 = i / across * kTileSide;
+            render_tile(*tile, mode, depth, image);
+        }
+    };
+    std::vector<std::jthread> helpers;
+    for (int i = 1; i < threads; ++i) helpers.emplace_back(work);
+    work();
+    helpers.clear();
+    return image;
+}
+
+std::vector<SingleHit> closest_hits(const EmbreeScene& scene, std::span<const Ray> rays) {
+    const FlushDenormals flush;
+    RTCIntersectContext context = context_for(false);
+    std::vector<SingleHit> hits;
+    hits.reserve(rays.size());
+    for (const Ray& ray : rays) {
+        const Float3 direction = unit(Float3(ray.direction));
+        RTCRayHit one;
+        one.ray = {static_cast<float>(ray.origin.x),
+                   static_cast<float>(ray.origin.y),
+                   static_cast<float>(ray.origin.z),
+                   0,
+                   direction.x,
+                   direction.y,
+                   direction.z,
+                   0,
+                   std::numeric_limits<float>::infinity(),
+                   ~0U,
+                   0,
+                   0};
+        one.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+        rtcIntersect1(scene.handle(), &context, &one);
+        hits.push_back({one.hit.geomID != RTC_INVALID_GEOMETRY_ID,
+                        one.hit.geomID == scene.sphere_geometry(), one.hit.primID, one.ray.tfar});
+    }
+    return hits;
+}
+
+}  // namespace nuvo::bench

@@ -1,0 +1,133 @@
+#include "compact_plan.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "nuvo/math/parallel.h"
+
+// The top of the tree, where few voxels hold many items each: threads share the items of a voxel.
+// Below it they share the voxels.
+
+namespace nuvo {
+namespace {
+
+// A subtree is a task of at most this share of the items, but never smaller than kSmallestTask.
+constexpr std::size_t kTasks = 64;
+constexpr std::size_t kSmallestTask = 4096;
+constexpr std::size_t kChunk = 8192;  // items of a voxel that a thread marks at a time
+
+class Planner {
+  public:
+    Planner(BoxSpan boxes, const CompactBuildOptions& options)
+        : boxes_(boxes), options_(options), prices_(options.costs) {
+        for (int i = 0; i < options.threads; ++i) markers_.emplace_back(boxes, options.overlaps);
+    }
+
+    std::optional<Split> try_split(const PlanNode& node) {
+        const std::size_t count = node.items.size();
+        if (node.place.level >= CompactOctree::kMaxDepth) return std::nullopt;
+        const std::optional<CutVoxel> cut =
+            choose_cut(options_.rule, node.place.voxel, node.items, boxes_);
+        if (!cut) return std::nullopt;
+        const Split split{*cut, mark(*cut, node.items)};
+        if (!node.place.allowance.permits(split) || !prices_.pays(split, count) ||
+            split.occupied() == 0)
+            return std::nullopt;
+        return split;
+    }
+
+    // The items of one octant of the node that was split last.
+    std::vector<std::uint32_t> items_of(const PlanNode& node, unsigned octant) const {
+        std::vector<std::uint32_t> items(node.split->counts[octant] + 1);
+        std::size_t next = 0;
+        for (std::size_t i = 0; i < node.items.size(); ++i) {
+            items[next] = node.items[i];
+            next += masks_[i] >> octant & 1U;
+        }
+        items.pop_back();
+        return items;
+    }
+
+  private:
+    std::array<std::size_t, 8> mark(const CutVoxel& voxel, ItemSpan items) {
+        masks_.resize(items.size());
+        const std::size_t chunks = (items.size() + kChunk - 1) / kChunk;
+        std::vector<std::array<std::size_t, 8>> counts(chunks);
+        for_each_index(options_.threads, chunks, [&](std::size_t i, int thread) {
+            const std::size_t begin = i * kChunk;
+            const ItemSpan part = items.subspan(begin, std::min(kChunk, items.size() - begin));
+            counts[i] =
+                markers_[static_cast<std::size_t>(thread)].mark(voxel, part, masks_.data() + begin);
+        });
+        std::array<std::size_t, 8> sums{};
+        for (const auto& part : counts)
+            for (unsigned o = 0; o < 8; ++o) sums[o] += part[o];
+        return sums;
+    }
+
+    BoxSpan boxes_;
+    const CompactBuildOptions& options_;
+    Prices prices_;
+    std::vector<OctantMarker> markers_;
+    std::vector<std::uint8_t> masks_;
+};
+
+}  // namespace
+
+std::vector<PlanNode> make_plan(const Place& root, BoxSpan boxes,
+                                const CompactBuildOptions& options) {
+    std::vector<PlanNode> plan(1);
+    plan[0].place = root;
+    plan[0].items.resize(boxes.size());
+    std::iota(plan[0].items.begin(), plan[0].items.end(), 0U);
+    const std::size_t task = std::max(kSmallestTask, boxes.size() / kTasks);
+    Planner planner(boxes, options);
+    for (std::size_t i = 0; i < plan.size(); ++i) {
+        if (plan[i].items.size() <= task) continue;
+        plan[i].split = planner.try_split(plan[i]);
+        if (!plan[i].split) continue;
+        const Split& split = *plan[i].split;
+        plan[i].first_child = plan.size();
+        std::vector<PlanNode> children;
+        for (unsigned o = 0; o < 8; ++o)
+            if (split.counts[o] != 0)
+                children.push_back({plan[i].place.octant(split, o), {}, {}, 0, {}, 0});
+        std::vector<unsigned> octants;
+        for (unsigned o = 0; o < 8; ++o)
+            if (split.counts[o] != 0) octants.push_back(o);
+        for_each_index(options.threads, children.size(), [&](std::size_t c, int) {
+            children[c].items = planner.items_of(plan[i], octants[c]);
+        });
+        std::move(children.begin(), children.end(), std::back_inserter(plan));
+    }
+    return plan;
+}
+
+void carry_out(std::vector<PlanNode>& plan, BoxSpan boxes, const CompactBuildOptions& options) {
+    std::vector<PlanNode*> tasks;
+    for (PlanNode& node : plan)
+        if (!node.split) tasks.push_back(&node);
+    std::vector<SubtreeBuilder> builders;
+    for (int i = 0; i < options.threads; ++i) builders.emplace_back(boxes, options);
+    for_each_index(options.threads, tasks.size(), [&](std::size_t i, int thread) {
+        PlanNode& node = *tasks[i];
+        node.subtree = builders[static_cast<std::size_t>(thread)].build(node.place, node.items);
+        node.cost = node.subtree.cost;
+    });
+    const Prices prices(options.costs);
+    for (std::size_t i = plan.size(); i-- > 0;) {
+        PlanNode& node = plan[i];
+        if (!node.split) continue;
+        node.cost = prices.interior(node.place.voxel);
+        for (unsigned c = 0; c < node.split->octants(); ++c)
+            node.cost += plan[node.first_child + c].cost;
+        const double as_leaf = prices.leaf(node.place.voxel, node.items.size());
+        if (node.cost < as_leaf) continue;
+        node.split.reset();
+        const auto count = static_cast<std::uint32_t>(node.items.size());
+        node.subtree = {CompactNode::leaf(0, count), as_leaf, {}, std::move(node.items)};
+        node.cost = as_leaf;
+    }
+}
+
+}  // namespace nuvo

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "compact_subtree.h"
+
+namespace nuvo {
+
+/// A node near the root: cut further, or the root of a subtree that one thread builds.
+struct PlanNode {
+    Place place;
+    std::vector<std::uint32_t> items;
+    std::optional<Split> split;   ///< none: the root of `subtree`
+    std::size_t first_child = 0;  ///< the children stand side by side
+    Subtree subtree;
+    double cost = 0;
+};
+
+/// The upper levels, node 0 the root and every node before its children, cut until no node holds
+/// more than a small share of the items, which does not depend on the number of threads.
+std::vector<PlanNode> make_plan(const Place& root, BoxSpan boxes,
+                                const CompactBuildOptions& options);
+
+/// Builds the subtrees and takes back what does not pay.
+void carry_out(std::vector<PlanNode>& plan, BoxSpan boxes, const CompactBuildOptions& options);
+
+}  // namespace nuvo

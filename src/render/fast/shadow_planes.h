@@ -1,0 +1,26 @@
+#pragma once
+
+#include "nuvo/render/fast.h"
+#include "shadow_tables.h"
+
+namespace nuvo {
+
+/// The planes of triangles [first, last) as `light` sees them. `reach` bounds the coordinates of
+/// the scene in the local frame.
+struct ShadowPlanesJob {
+    const FastScene& scene;
+    const LightPoint& light;
+    double reach;
+    Slot first;
+    Slot last;
+    ShadowPlanes* out;  ///< of slot 0
+    const Light& exact_light;
+};
+
+void make_shadow_planes(const ShadowPlanesJob& job, InstructionSet isa);
+
+/// On which side of the triangle's plane the light stands, exactly: the sign of n.(L - a), or of
+/// n.d for a direction d to the light; n = (b - a) x (c - a).
+int exact_light_side(const Light& light, const Triangle& triangle);
+
+}  // namespace nuvo

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "fast_scene.h"
+#include "nuvo/render/fast.h"
+#include "nuvo/scene/light.h"
+
+// What a triangle hides from a light is a cone cut off by the triangle: the points on the inner
+// side of the three planes through the light and an edge, and beyond the triangle's own (shadow
+// volumes: Crow 1977, "Shadow algorithms for computer graphics"). All four are affine functions of
+// the point, for a light at a place and for one in a direction alike; so a shadow ray against a
+// triangle is 12 multiplications and additions and a minimum.
+
+namespace nuvo {
+
+/// A light as the point toward / weight of the local frame; weight 0: the direction `toward` to the
+/// light. No component is greater than 1; the weight is a power of two.
+struct LightPoint {
+    LightPoint(const Light& light, const LocalFrame& frame);
+
+    Vector3 toward;
+    double weight = 0;
+    bool finite = true;  ///< false: out of the range of doubles, nothing below is sure
+};
+
+/// Four functions n.P + w of a point P of the local frame, |n|_1 = 1, positive where the triangle
+/// hides P from the light. The first three belong to the edges, the last to the triangle's plane.
+/// One that double arithmetic cannot place well enough is 0 everywhere: it decides nothing.
+struct alignas(64) ShadowPlanes {
+    float plane[4][4];  ///< n, w
+};
+
+/// A sphere, or one around an ellipsoid, in the local frame.
+struct RoundShape {
+    float center[3];
+    float radius;
+};
+
+/// Where a light stands towards a round shape.
+enum class LightSide : std::uint8_t { kOutside, kInside, kUnknown };
+
+struct ShadowTable {
+    explicit ShadowTable(const LightPoint& from) : light(from) {}
+
+    LightPoint light;
+    std::vector<ShadowPlanes> planes;    ///< by slot
+    std::vector<LightSide> round_sides;  ///< of slots from triangle_end on; empty: all outside
+};
+
+/// What the shadow stage needs of scene and lights, shared by all threads.
+class ShadowTables {
+  public:
+    ShadowTables(const FastScene& scene, InstructionSet isa);
+
+    const FastScene& scene() const { return scene_; }
+    /// Of light i; empty where it casts no shadow.
+    const ShadowTable& table(std::size_t light) const { return tables_[light]; }
+    const RoundShape& round(Slot slot) const { return rounds_[slot - scene_.triangle_end()]; }
+    bool has_rounds() const { return !rounds_.empty(); }
+
+    /// Bounds |n.P + w - the true function at SurfacePoint::point|, evaluated in float, but for
+    /// what P's own error (on each axis) adds; and a lit point's SurfacePoint::error.
+    float plane_error() const { return plane_error_; }
+    /// Bounds how far a float segment from point to light lies from the true one within the scene,
+    /// but for twice P's own error; with a margin in which round shapes count as touched.
+    float round_error() const { return round_error_; }
+
+    std::size_t memory_bytes() const;
+
+  private:
+    void add_rounds();
+    void add_sides(ShadowTable& table) const;
+
+    const FastScene& scene_;
+    double reach_;  // largest |coordinate| of the scene's box in the local frame
+    double touch_;  // bounds SurfacePoint::error, in the local frame
+    float plane_error_;
+    float round_error_;
+    std::vector<RoundShape> rounds_;
+    std::vector<ShadowTable> tables_;
+};
+
+}  // namespace nuvo

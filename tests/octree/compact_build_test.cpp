@@ -1,0 +1,341 @@
+#include "nuvo/octree/compact_build.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <string>
+
+namespace nuvo {
+namespace {
+
+using Box = Bounds3T<float>;
+
+struct Leaf {
+    Box box;
+    std::vector<std::uint32_t> items;
+};
+
+// Walks the whole tree; fails where a node is malformed, met twice or not at all.
+class Reader {
+  public:
+    explicit Reader(const CompactOctree& tree) : tree_(tree), met_(tree.nodes.size(), false) {
+        read(0, tree.bounds, 1);
+        EXPECT_EQ(std::count(met_.begin(), met_.end(), false), 0);
+        EXPECT_EQ(references_, tree.items.size());
+        EXPECT_LE(depth_, CompactOctree::kMaxDepth);
+    }
+    const std::vector<Leaf>& leaves() const { return leaves_; }
+    // Sums of eq. 10 in units of the root's area.
+    double interior_area() const { return interior_area_ / area(tree_.bounds); }
+    double cost(const CompactCosts& costs) const {
+        double sum = costs.interior * interior_area_;
+        for (const Leaf& leaf : leaves_)
+            sum += area(leaf.box) * (costs.leaf + static_cast<double>(leaf.items.size()));
+        return sum / area(tree_.bounds);
+    }
+
+  private:
+    static double area(const Box& box) {
+        return Bounds3{Point3(box.min), Point3(box.max)}.surface_area();
+    }
+    void read(std::uint32_t index, const Box& box, int level) {
+        ASSERT_LT(index, tree_.nodes.size());
+        ASSERT_FALSE(met_[index]);
+        met_[index] = true;
+        depth_ = std::max(depth_, level);
+        const CompactNode& node = tree_.nodes[index];
+        if (node.is_leaf()) {
+            const auto first = tree_.items.begin() + node.first_item();
+            leaves_.push_back({box, {first, first + node.item_count()}});
+            references_ += node.item_count();
+            return;
+        }
+        interior_area_ += area(box);
+        for (unsigned o = 0; o < 8; ++o) {
+            if ((node.mask() >> o & 1U) == 0) continue;
+            Box child = box;
+            for (int axis = 0; axis < 3; ++axis) {
+                // Inside, or the upper face: not cut.
+                ASSERT_TRUE(box.min[axis] < node.cut[axis] || node.cut[axis] == box.max[axis]);
+                ASSERT_LE(node.cut[axis], box.max[axis]);
+                ((o >> axis & 1U) != 0 ? child.min : child.max)[axis] = node.cut[axis];
+            }
+            read(node.child(o), child, level + 1);
+        }
+    }
+
+    const CompactOctree& tree_;
+    std::vector<bool> met_;
+    std::vector<Leaf> leaves_;
+    std::size_t references_ = 0;
+    double interior_area_ = 0;
+    int depth_ = 0;
+};
+
+std::vector<Leaf> leaves_of(const CompactOctree& tree) { return Reader(tree).leaves(); }
+
+std::vector<Box> random_boxes(unsigned seed, std::size_t count, float size) {
+    std::mt19937_64 random(seed);
+    std::uniform_real_distribution<float> place(0, 1);
+    std::vector<Box> boxes;
+    for (std::size_t i = 0; i < count; ++i) {
+        const Vec3<float> p{place(random), place(random), place(random)};
+        const Vec3<float> w{place(random) * size, place(random) * size, place(random) * size};
+        boxes.push_back({p, p + w});
+    }
+    return boxes;
+}
+
+CompactBuildOptions options(CutRule rule, int threads = 1) {
+    CompactBuildOptions result;
+    result.rule = rule;
+    result.threads = threads;
+    return result;
+}
+
+// Every leaf lists, in order, exactly the boxes that touch it.
+void expect_brute_force(const std::vector<Leaf>& leaves, const std::vector<Box>& boxes) {
+    for (const Leaf& leaf : leaves) {
+        std::vector<std::uint32_t> touching;
+        for (std::size_t i = 0; i < boxes.size(); ++i)
+            if (boxes[i].overlaps(leaf.box)) touching.push_back(static_cast<std::uint32_t>(i));
+        ASSERT_EQ(leaf.items, touching);
+    }
+}
+
+constexpr CutRule kRules[] = {CutRule::kSpatial, CutRule::kSweep};
+
+TEST(CompactBuild, LeavesListExactlyTheBoxesThatTouchThem) {
+    for (const CutRule rule : kRules)
+        for (const unsigned seed : {1U, 2U, 3U})
+            for (const float size : {0.001F, 0.05F, 0.5F}) {
+                SCOPED_TRACE("seed " + std::to_string(seed) + " size " + std::to_string(size));
+                const std::vector<Box> boxes = random_boxes(seed, 1500, size);
+                const CompactOctree tree = build_compact_octree(boxes, options(rule));
+                const Reader reader(tree);
+                EXPECT_GT(reader.leaves().size(), 8U);
+                expect_brute_force(reader.leaves(), boxes);
+            }
+}
+
+TEST(CompactBuild, BoxesThatEndOnACutAreListedOnBothSides) {
+    // Spatial cuts depend on the whole box only: those of a first tree are edges in the second.
+    std::vector<Box> boxes = random_boxes(4, 2000, 0.01F);
+    boxes.push_back({{-1, -1, -1}, {2, 2, 2}});
+    const CompactOctree first = build_compact_octree(boxes, options(CutRule::kSpatial));
+    std::vector<float> planes[3];
+    for (const CompactNode& node : first.nodes)
+        if (!node.is_leaf())
+            for (int axis = 0; axis < 3; ++axis) planes[axis].push_back(node.cut[axis]);
+    std::mt19937_64 random(5);
+    for (std::size_t i = 0; i < 500; ++i)
+        for (int axis = 0; axis < 3; ++axis) {
+            const float plane = planes[axis][random() % planes[axis].size()];
+            (random() % 2 == 0 ? boxes[i].min : boxes[i].max)[axis] = plane;
+            if (boxes[i].min[axis] > boxes[i].max[axis])
+                std::swap(boxes[i].min[axis], boxes[i].max[axis]);
+        }
+    const CompactOctree second = build_compact_octree(boxes, options(CutRule::kSpatial));
+    ASSERT_EQ(second.bounds, first.bounds);
+    std::size_t on_a_plane = 0;
+    const Reader reader(second);
+    for (const Leaf& leaf : reader.leaves())
+        for (const std::uint32_t item : leaf.items)
+            on_a_plane += boxes[item].max.x == leaf.box.min.x ? 1 : 0;
+    EXPECT_GT(on_a_plane, 10U);
+    expect_brute_force(reader.leaves(), boxes);
+}
+
+TEST(CompactBuild, TheTestIsAskedOnlyOfItemsInSeveralOctantsAndObeyed) {
+    const std::vector<Box> boxes = random_boxes(6, 3000, 0.1F);
+    for (const CutRule rule : kRules) {
+        CompactBuildOptions with_test = options(rule);
+        // Odd items have points in the lower half of x only.
+        with_test.overlaps = [&](const CutVoxel& voxel, std::span<const std::uint32_t> items,
+                                 std::span<std::uint8_t> masks) {
+            ASSERT_EQ(items.size(), masks.size());
+            ASSERT_TRUE(std::is_sorted(items.begin(), items.end()));
+            for (std::size_t i = 0; i < items.size(); ++i) {
+                ASSERT_GE(std::popcount(masks[i]), 2);
+                ASSERT_TRUE(boxes[items[i]].overlaps(voxel.bounds));
+                if (items[i] % 2 == 1 && (masks[i] & 0x55) != 0) masks[i] &= 0x55;
+            }
+        };
+        const auto references = [](const CompactOctree& tree, std::uint32_t remainder) {
+            return std::count_if(tree.items.begin(), tree.items.end(),
+                                 [&](std::uint32_t item) { return item % 2 == remainder; });
+        };
+        const CompactOctree plain = build_compact_octree(boxes, options(rule));
+        const CompactOctree tested = build_compact_octree(boxes, with_test);
+        EXPECT_LT(references(tested, 1), references(plain, 1) * 3 / 4);
+        for (const Leaf& leaf : leaves_of(tested))
+            for (std::size_t i = 0; i < boxes.size(); i += 2)
+                ASSERT_EQ(std::binary_search(leaf.items.begin(), leaf.items.end(), i),
+                          boxes[i].overlaps(leaf.box));
+    }
+}
+
+TEST(CompactBuild, TheTreeDoesNotDependOnTheNumberOfThreads) {
+    const std::vector<Box> boxes = random_boxes(7, 30000, 0.02F);
+    for (const CutRule rule : kRules) {
+        const CompactOctree one = build_compact_octree(boxes, options(rule, 1));
+        for (const int threads : {2, 7}) {
+            const CompactOctree many = build_compact_octree(boxes, options(rule, threads));
+            EXPECT_EQ(many.items, one.items);
+            ASSERT_EQ(many.nodes.size(), one.nodes.size());
+            for (std::size_t i = 0; i < one.nodes.size(); ++i) {
+                ASSERT_EQ(many.nodes[i].children, one.nodes[i].children);
+                for (int axis = 0; axis < 3; ++axis)
+                    ASSERT_EQ(std::bit_cast<std::uint32_t>(many.nodes[i].cut[axis]),
+                              std::bit_cast<std::uint32_t>(one.nodes[i].cut[axis]));
+            }
+        }
+    }
+}
+
+TEST(CompactBuild, ErrorsInAThreadReachTheCaller) {
+    const std::vector<Box> boxes = random_boxes(8, 10000, 0.1F);
+    CompactBuildOptions failing = options(CutRule::kSpatial, 3);
+    failing.overlaps = [](const CutVoxel&, std::span<const std::uint32_t>,
+                          std::span<std::uint8_t>) { throw std::bad_alloc(); };
+    EXPECT_THROW(build_compact_octree(boxes, failing), std::bad_alloc);
+}
+
+TEST(CompactBuild, ReferencesStayWithinTheirLimit) {
+    // Needles through the whole scene: each cut doubles them.
+    std::mt19937_64 random(9);
+    std::uniform_real_distribution<float> place(0, 1);
+    std::vector<Box> boxes;
+    for (int i = 0; i < 6000; ++i) {
+        const float y = place(random);
+        const float z = place(random);
+        boxes.push_back({{0, y, z}, {1, y + 1e-5F, z + 1e-5F}});
+    }
+    for (const CutRule rule : kRules)
+        for (const double limit : {1.0, 3.0, 20.0}) {
+            CompactBuildOptions limited = options(rule);
+            limited.max_references_per_item = limit;
+            const CompactOctree tree = build_compact_octree(boxes, limited);
+            EXPECT_LE(static_cast<double>(tree.items.size()), limit * 6000);
+            if (rule == CutRule::kSpatial) {
+                EXPECT_EQ(tree.nodes.size() > 1, limit >= 2);
+            }
+        }
+}
+
+TEST(CompactBuild, ItemsThatCutsDoNotPartTakeNothingFromOthers) {
+    std::vector<Box> boxes(2000, Box{{0, 0, 0}, {0.9F, 0.9F, 0.9F}});
+    for (Box box : random_boxes(10, 2000, 0.001F)) {
+        for (Vec3<float>* corner : {&box.min, &box.max}) corner->x += 2;
+        boxes.push_back(box);
+    }
+    for (const CutRule rule : kRules) {
+        CompactBuildOptions limited = options(rule);
+        limited.max_references_per_item = 3;
+        const CompactOctree tree = build_compact_octree(boxes, limited);
+        for (const Leaf& leaf : leaves_of(tree)) {
+            if (!leaf.items.empty() && leaf.items.front() >= 2000) {
+                EXPECT_LT(leaf.items.size(), 64U);
+            }
+        }
+    }
+}
+
+TEST(CompactBuild, NothingAndOneItemMakeALeaf) {
+    for (const CutRule rule : kRules) {
+        const CompactOctree none = build_compact_octree({}, options(rule));
+        ASSERT_EQ(none.nodes.size(), 1U);
+        EXPECT_TRUE(none.nodes[0].is_leaf());
+        EXPECT_EQ(none.nodes[0].item_count(), 0U);
+        EXPECT_FALSE(none.bounds.empty());
+        const std::vector<Box> box{{{1, 2, 3}, {2, 3, 4}}};
+        const CompactOctree one = build_compact_octree(box, options(rule));
+        ASSERT_EQ(one.nodes.size(), 1U);
+        EXPECT_EQ(one.items, std::vector<std::uint32_t>{0});
+        EXPECT_TRUE(one.bounds.contains(box[0].min) && one.bounds.contains(box[0].max));
+    }
+}
+
+TEST(CompactBuild, ItemsAtOnePointStayInOneLeaf) {
+    const std::vector<Box> points(5000, Box{{0.25F, 0.5F, 0.75F}, {0.25F, 0.5F, 0.75F}});
+    const std::vector<Box> boxes(5000, Box{{0, 0, 0}, {1, 1, 1}});
+    for (const CutRule rule : kRules)
+        for (const auto& items : {points, boxes}) {
+            const CompactOctree tree = build_compact_octree(items, options(rule));
+            EXPECT_EQ(tree.nodes.size(), 1U);
+            EXPECT_EQ(tree.items.size(), 5000U);
+        }
+}
+
+TEST(CompactBuild, AFlatSceneIsCutOnItsTwoAxes) {
+    for (int axis = 0; axis < 3; ++axis)
+        for (const CutRule rule : kRules) {
+            std::vector<Box> boxes = random_boxes(11, 4000, 0.003F);
+            for (Box& box : boxes) box.min[axis] = box.max[axis] = 0.125F;
+            const CompactOctree tree = build_compact_octree(boxes, options(rule));
+            const Reader reader(tree);
+            EXPECT_GT(reader.leaves().size(), 200U);
+            EXPECT_LT(tree.items.size(), 2 * boxes.size());
+            expect_brute_force(reader.leaves(), boxes);
+        }
+}
+
+TEST(CompactBuild, SmallAndLargeScenesAreCutLikeOthers) {
+    const std::vector<Box> boxes = random_boxes(12, 2000, 0.01F);
+    for (const CutRule rule : kRules)
+        for (const float scale : {0x1p-30F, 0x1p-10F, 0x1p10F, 0x1p30F}) {
+            std::vector<Box> scaled = boxes;
+            for (Box& box : scaled) box = {box.min * scale, box.max * scale};
+            const CompactOctree tree = build_compact_octree(scaled, options(rule));
+            EXPECT_GT(tree.nodes.size(), 300U);
+            expect_brute_force(leaves_of(tree), scaled);
+        }
+}
+
+TEST(CompactBuild, TheSweepCutsThroughTheGap) {
+    // Two clouds of touching boxes on a lattice, with a gap in x that is far from the centre.
+    std::vector<Box> boxes;
+    for (int i = 0; i < 1000; ++i) {
+        const Vec3<float> p{static_cast<float>(i % 10), static_cast<float>(i / 10 % 10),
+                            static_cast<float>(i / 100)};
+        const float moved = p.x >= 3 ? p.x + 0.125F : p.x;
+        boxes.push_back({{moved, p.y, p.z}, {moved + 0.75F, p.y + 0.75F, p.z + 0.75F}});
+    }
+    const CompactOctree tree = build_compact_octree(boxes, options(CutRule::kSweep));
+    // Whatever gaps it chose, no box was cut.
+    EXPECT_EQ(tree.items.size(), boxes.size());
+    EXPECT_GT(tree.nodes.size(), 100U);
+}
+
+TEST(CompactBuild, WhatDoesNotPayIsNotKept) {
+    for (const unsigned seed : {13U, 14U})
+        for (const float size : {0.01F, 0.2F, 0.6F})
+            for (const CutRule rule : kRules) {
+                const std::vector<Box> boxes = random_boxes(seed, 1000, size);
+                const CompactBuildOptions usual = options(rule);
+                const CompactOctree tree = build_compact_octree(boxes, usual);
+                // A single leaf: the price of a leaf and of each item.
+                EXPECT_LE(Reader(tree).cost(usual.costs), usual.costs.leaf + 1000);
+                CompactBuildOptions dear = usual;
+                dear.costs.interior = 2000;
+                EXPECT_EQ(build_compact_octree(boxes, dear).nodes.size(), 1U);
+            }
+}
+
+TEST(CompactBuild, DearerStepsMakeSmallerTrees) {
+    const std::vector<Box> boxes = random_boxes(15, 5000, 0.02F);
+    for (const CutRule rule : kRules) {
+        std::size_t last = std::numeric_limits<std::size_t>::max();
+        for (const double price : {2.0, 8.0, 32.0}) {
+            CompactBuildOptions priced = options(rule);
+            priced.costs.interior = price;
+            const std::size_t nodes = build_compact_octree(boxes, priced).nodes.size();
+            EXPECT_LT(nodes, last);
+            last = nodes;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace nuvo
