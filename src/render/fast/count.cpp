@@ -30,7 +30,7 @@ std::uint64_t shadow_rays(const FastScene& scene, const Referee& referee, const 
 RayCounts count_rays(const FastScene& scene, const Bounds3& triangles, InstructionSet isa,
                      Resolution resolution) {
     const CameraRays camera(scene.scene().camera, resolution, scene.frame());
-    const CameraTables tables(scene, camera);
+    const CameraTables tables(scene, camera, isa);
     const Referee referee(scene, camera, triangles);
     const auto job =
         std::make_unique<PrimaryJob>(PrimaryJob{scene, camera, tables, referee, true, {}});
