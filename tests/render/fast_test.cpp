@@ -104,6 +104,18 @@ TEST(Fast, RandomScenesAreRenderedToTheSameBytes) {
     }
 }
 
+TEST(Fast, DeepOctreesAreRenderedToTheSameBytes) {
+    const auto seed = static_cast<unsigned>(chosen_seed());
+    SCOPED_TRACE("NUVO_FAST_SEED=" + std::to_string(seed));
+    for (Scene scene : {random_scene(seed, 3000), grid_scene()}) {
+        expect_identical(scene, {{96, 54}}, {1, 2});
+        for (const Camera& camera : odd_cameras(scene)) {
+            scene.camera = camera;
+            expect_identical(scene, {{40, 30}});
+        }
+    }
+}
+
 TEST(Fast, RandomScenesOfAnyScaleAndPlaceAreRenderedToTheSameBytes) {
     const std::uint64_t seed = chosen_seed();
     for (const double scale : {1e-15, 1e-6, 1e6, 1e15})
