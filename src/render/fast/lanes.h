@@ -147,6 +147,8 @@ struct Lanes : LaneShape<T, N> {
     NUVO_LANES_BINARY(-, Sub)
     NUVO_LANES_BINARY(*, Mul)
     NUVO_LANES_BINARY(/, Div)
+    NUVO_LANES_BINARY(&, And)
+    NUVO_LANES_BINARY(|, Or)
 #undef NUVO_LANES_BINARY
 #define NUVO_LANES_COMPARE(op, function)                                 \
     friend HWY_INLINE Mask operator op(const Lanes& a, const Lanes& b) { \
@@ -221,6 +223,36 @@ using RayMask = LaneMask<float, 16>;
 using Ints = Lanes<std::int32_t, 16>;
 using OctantFloats = Lanes<float, 8>;  ///< one number for each of 8 octants
 using Doubles4 = Lanes<double, 4>;
+using Doubles = Lanes<double, 16>;  ///< Floats' lanes
+
+/// Rounded to the nearest floats.
+HWY_INLINE Floats floats_from(const Doubles& v) {
+    Floats out;
+#if HWY_TARGET == HWY_SCALAR
+    for (std::size_t i = 0; i < Floats::Shape::kParts; ++i)
+        out.part[i] = hn::DemoteTo(Floats::Tag(), v.part[i]);
+#else
+    const hn::Half<Floats::Tag> half;
+    for (std::size_t i = 0; i < Floats::Shape::kParts; ++i)
+        out.part[i] = hn::Combine(Floats::Tag(), hn::DemoteTo(half, v.part[2 * i + 1]),
+                                  hn::DemoteTo(half, v.part[2 * i]));
+#endif
+    return out;
+}
+HWY_INLINE Doubles doubles_from(const Floats& v) {
+    Doubles out;
+#if HWY_TARGET == HWY_SCALAR
+    for (std::size_t i = 0; i < Floats::Shape::kParts; ++i)
+        out.part[i] = hn::PromoteTo(Doubles::Tag(), v.part[i]);
+#else
+    const hn::Half<Floats::Tag> half;
+    for (std::size_t i = 0; i < Floats::Shape::kParts; ++i) {
+        out.part[2 * i] = hn::PromoteTo(Doubles::Tag(), hn::LowerHalf(half, v.part[i]));
+        out.part[2 * i + 1] = hn::PromoteTo(Doubles::Tag(), hn::UpperHalf(half, v.part[i]));
+    }
+#endif
+    return out;
+}
 
 /// At least 1 / sqrt(v), and at most 2^-9 more of it; v >= 0.
 HWY_INLINE Floats above_inverse_sqrt(Floats v) {
@@ -231,6 +263,39 @@ HWY_INLINE Floats above_inverse_sqrt(Floats v) {
         v.part[i] = hn::ApproximateReciprocalSqrt(v.part[i]);
     return v * Floats(1 + 0x1p-10F);  // the least accurate set is within 1.5 * 2^-12
 #endif
+}
+
+/// The bits of floats as integers, and back.
+HWY_INLINE Ints bits_of(const Floats& v) {
+    Ints out;
+    for (std::size_t i = 0; i < Floats::Shape::kParts; ++i)
+        out.part[i] = hn::BitCast(Ints::Tag(), v.part[i]);
+    return out;
+}
+HWY_INLINE Floats floats_of(const Ints& v) {
+    Floats out;
+    for (std::size_t i = 0; i < Floats::Shape::kParts; ++i)
+        out.part[i] = hn::BitCast(Floats::Tag(), v.part[i]);
+    return out;
+}
+template <int kBits>
+HWY_INLINE Ints shift_left(Ints v) {
+    for (std::size_t i = 0; i < Ints::Shape::kParts; ++i)
+        v.part[i] = hn::ShiftLeft<kBits>(v.part[i]);
+    return v;
+}
+/// With copies of the sign.
+template <int kBits>
+HWY_INLINE Ints shift_right(Ints v) {
+    for (std::size_t i = 0; i < Ints::Shape::kParts; ++i)
+        v.part[i] = hn::ShiftRight<kBits>(v.part[i]);
+    return v;
+}
+HWY_INLINE Floats floats_from(const Ints& v) {
+    Floats out;
+    for (std::size_t i = 0; i < Floats::Shape::kParts; ++i)
+        out.part[i] = hn::ConvertTo(Floats::Tag(), v.part[i]);
+    return out;
 }
 
 /// The lowest and the highest lane.

@@ -5,6 +5,7 @@
 
 #include "exact_kernel.h"
 #include "fast_scene.h"
+#include "surface_color.h"
 #include "tile.h"
 
 // What the float stages of the fast tracer leave open is decided here, pixel by pixel, by the very

@@ -1,0 +1,332 @@
+#include "shading_tables.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "nuvo/geometry/predicates.h"
+#include "shading_facing.h"
+
+namespace nuvo {
+namespace {
+
+constexpr double kFullByte = 255;
+// Outweighs second-order terms and the roundings of a bound's own computation.
+constexpr double kSlack = 1.02;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// More lights use normals: their tables would outgrow the caches.
+constexpr std::size_t kLightsWithFacing = 8;
+
+float rounded(double value) { return static_cast<float>(value); }
+float rounded_up(double value) {
+    return std::nextafter(static_cast<float>(value), std::numeric_limits<float>::infinity());
+}
+double largest(const Color& c) { return std::max(c.x, std::max(c.y, c.z)); }
+bool is_gray(const Color& c) { return c.x == c.y && c.y == c.z; }
+double length2(const Vector3& v) { return length(v); }
+
+// Colors are bounded by sums of terms that are not negative, and not too large for float.
+bool is_sound(double value) { return value >= 0 && value < 0x1p60; }
+bool is_sound(const Color& c) { return is_sound(c.x) && is_sound(c.y) && is_sound(c.z); }
+
+void put(const Color& color, double factor, float (&out)[3]) {
+    for (int c = 0; c < 3; ++c) out[c] = rounded(color[c] * factor);
+}
+
+ShadingMaterial shading_material(const Material& m) {
+    ShadingMaterial out{};
+    put(m.emissive_color, kFullByte, out.emissive);
+    out.emissive_most = rounded_up(largest(m.emissive_color) * kFullByte);
+    if (!m.lit) return out;
+    put(m.diffuse_color, kFullByte, out.diffuse);
+    put(m.specular_color, kFullByte, out.specular);
+    out.diffuse_most = rounded_up(largest(m.diffuse_color) * kFullByte);
+    out.specular_most = rounded_up(largest(m.specular_color) * kFullByte);
+    out.ambient = rounded(m.ambient_intensity);
+    out.exponent = rounded(128 * m.shininess);
+    return out;
+}
+
+void add_materials(ShadingTables& tables) {
+    using Key = std::array<double, 12>;
+    std::map<Key, SurfaceWord> known;
+    for (const Material& m : tables.scene.scene().materials) {
+        const bool specular = m.lit && m.specular_color != Color{};
+        tables.sound = tables.sound && is_sound(m.diffuse_color) && is_sound(m.emissive_color) &&
+                       is_sound(m.specular_color) && is_sound(m.ambient_intensity) &&
+                       is_sound(m.shininess);
+        const Color d = m.lit ? m.diffuse_color : Color{};
+        const Color s = specular ? m.specular_color : Color{};
+        const Color e = m.emissive_color;
+        const Key key{d.x,
+                      d.y,
+                      d.z,
+                      s.x,
+                      s.y,
+                      s.z,
+                      e.x,
+                      e.y,
+                      e.z,
+                      m.lit ? m.ambient_intensity : 0,
+                      specular ? m.shininess : 0,
+                      m.lit ? 1.0 : 0.0};
+        const auto next = static_cast<SurfaceWord>(tables.materials.size());
+        const auto [place, is_new] = known.try_emplace(key, next);
+        if (is_new) tables.materials.push_back(shading_material(m));
+        SurfaceWord word = place->second;
+        if (!m.lit) word |= kUnlitFlag;
+        if (specular) word |= kSpecularFlag;
+        tables.any_flags |= word & ~kMaterialMask;
+        tables.material_words.push_back(word);
+    }
+    tables.uniform = tables.materials.size() <= 1;
+    if (tables.uniform && !tables.material_words.empty())
+        tables.common_word = tables.material_words[0];
+}
+
+// Flags that only meshes have.
+void add_mesh_flags(ShadingTables& tables) {
+    if (tables.scene.triangle_end() == 0) return;
+    double most = 0;
+    for (const Object& object : tables.scene.scene().objects) {
+        const auto* mesh = std::get_if<TriangleMesh>(&object.shape);
+        if (!mesh) continue;
+        if (!mesh->normals.empty()) tables.any_flags |= kSmoothFlag;
+        if (mesh->colors.empty()) continue;
+        tables.any_flags |= kColoredFlag;
+        for (const Color& c : mesh->colors) {
+            tables.sound = tables.sound && is_sound(c);
+            most = std::max(most, largest(c));
+        }
+    }
+    if ((tables.any_flags & (kSmoothFlag | kColoredFlag)) != 0) tables.uniform = false;
+    // Weights in double, then one rounding of each sum.
+    tables.bounds.color_error = rounded_up(2 * kFloatUnit * most * kFullByte);
+}
+
+// The farthest that a point of the scene is from `p`, in the local frame.
+double farthest(const FastScene& scene, const Point3& p) {
+    const Bounds3T<float>& box = scene.octree().bounds;
+    if (box.empty()) return 0;
+    Vector3 way;
+    for (int axis = 0; axis < 3; ++axis)
+        way[axis] = std::max(std::fabs(p[axis] - static_cast<double>(box.min[axis])),
+                             std::fabs(static_cast<double>(box.max[axis]) - p[axis]));
+    return length2(way) * kSlack;
+}
+
+// What positions in the local frame may be off for being rounded in world space: those of
+// surface_point(), which are within surface_tolerance(), and of `p`.
+double world_rounding(const FastScene& scene, const Point3& p) {
+    const LocalFrame& frame = scene.frame();
+    const double world = max_norm(frame.center) * frame.scale;
+    return std::sqrt(3.0) * kSlack *
+           (surface_tolerance() * (world + 2) +
+            4 * kUnitRoundoff * (world + max_norm(p) * frame.scale));
+}
+
+void place_light(const ShadingTables& tables, const Light& exact, ShadingLight& light) {
+    const FastScene& scene = tables.scene;
+    const double scale = scene.frame().scale;
+    const Point3 location = scene.frame().local(exact.location);
+    for (int axis = 0; axis < 3; ++axis) light.location[axis] = rounded(location[axis]);
+    light.location_error = rounded_up(
+        kSlack * (kFloatUnit * length2(location) + world_rounding(scene, exact.location)));
+    const Vector3& a = exact.attenuation;
+    light.attenuated = a.x > 1 || a.y != 0 || a.z != 0;
+    const double unit = exact.units_per_world / scale;
+    light.attenuation[0] = rounded(a.x);
+    light.attenuation[1] = rounded(a.y * unit);
+    light.attenuation[2] = rounded(a.z * unit * unit);
+    const double reach = farthest(scene, location);
+    light.ranged = !(exact.radius * scale > reach * kSlack);
+    light.radius = rounded(exact.radius * scale);
+    // Of n.(L - a): the normal's, and that P is not quite in the plane.
+    light.facing_error = rounded_up(
+        light.exact_gain *
+        (2 * kTriangleNormalError * reach + world_rounding(scene, exact.location)) * kSlack);
+}
+
+void aim_spot(const Light& exact, ShadingLight& light) {
+    if (exact.direction == Vector3{}) light.dead = true;
+    for (int axis = 0; axis < 3; ++axis) light.axis[axis] = rounded(exact.direction[axis]);
+    light.beam_width = rounded(exact.beam_width);
+    light.cut_off = rounded(exact.cut_off_angle);
+    light.inverse_width = exact.beam_width < exact.cut_off_angle
+                              ? rounded(1 / (exact.cut_off_angle - exact.beam_width))
+                              : std::numeric_limits<float>::infinity();
+}
+
+ShadingLight shading_light(const ShadingTables& tables, const Light& exact) {
+    ShadingLight light;
+    const bool gray = is_gray(exact.color);
+    const double factor = gray ? exact.color.x : 1;
+    light.exact_gain = exact.intensity * factor;
+    light.gain = rounded(light.exact_gain);
+    light.ambient = rounded(exact.ambient_intensity * factor);
+    if (!gray)
+        for (int c = 0; c < 3; ++c) light.tint[c] = rounded(exact.color[c]);
+    light.tint_most = gray ? 1 : rounded_up(largest(exact.color));
+    light.dead = exact.color == Color{} || (exact.intensity == 0 && exact.ambient_intensity == 0);
+    const std::size_t objects = tables.scene.scene().objects.size();
+    light.scoped = exact.scope.first > 0 || exact.scope.last < objects;
+    light.directional = exact.kind == Light::Kind::kDirectional;
+    light.spot = exact.kind == Light::Kind::kSpot;
+    if (light.directional) {
+        if (exact.direction == Vector3{}) light.dead = true;
+        for (int axis = 0; axis < 3; ++axis) light.toward[axis] = rounded(-exact.direction[axis]);
+        light.facing_error = rounded_up(light.exact_gain * 2 * kTriangleNormalError);
+    } else {
+        place_light(tables, exact, light);
+    }
+    if (light.spot) aim_spot(exact, light);
+    return light;
+}
+
+void add_lights(ShadingTables& tables) {
+    const Scene& scene = tables.scene.scene();
+    bool ambient = false;
+    for (const Light& exact : scene.lights) {
+        tables.sound = tables.sound && is_sound(exact.color) && is_sound(exact.intensity) &&
+                       is_sound(exact.ambient_intensity) && is_sound(exact.attenuation) &&
+                       is_sound(exact.units_per_world / tables.scene.frame().scale);
+        tables.lights.push_back(shading_light(tables, exact));
+        if (!is_gray(exact.color)) tables.channels = 3;
+        ambient = ambient || exact.ambient_intensity != 0;
+        if (tables.lights.size() <= kLightsWithFacing && !tables.lights.back().dead)
+            tables.lights.back().facing.resize(tables.scene.triangle_end());
+    }
+    for (const Material& m : scene.materials)
+        tables.any_ambient = tables.any_ambient || (ambient && m.lit && m.ambient_intensity != 0);
+}
+
+void bound_rays(ShadingTables& tables) {
+    const CameraRays& camera = tables.camera;
+    const Resolution size = camera.resolution;
+    double longest = 0;
+    for (const double y : {-0.5, 0.5})
+        for (const double x : {-0.5, 0.5})
+            longest = std::max(longest, length2(camera.direction(x * size.width, y * size.height)));
+    longest *= kSlack;
+    for (int lane = 0; lane < kBlockLanes; ++lane) {
+        const Vector3 step = camera.right * lane_x(lane) + camera.down * lane_y(lane);
+        for (int axis = 0; axis < 3; ++axis)
+            tables.lane_direction[axis][lane] = rounded(step[axis]);
+    }
+    const double steps =
+        std::min(2 * longest, (kBlockSide - 1) * (length2(camera.right) + length2(camera.down)));
+    ShadingBounds& bounds = tables.bounds;
+    bounds.direction_longest = rounded_up(longest);
+    // Roundings of the block's first direction, of the step and of their sum; |d| >= 1.
+    bounds.direction_error = rounded_up(kSlack * kFloatUnit * (2 * longest + steps));
+    bounds.direction_relative = rounded_up(kSlack * kFloatUnit * (2 + 2 * steps));
+    // P = o + t d: roundings of o and of the sum; of 1 / near and the mean that is near (3.2 u)
+    // and of the product.
+    constexpr double kSceneRadius = 1.75;  // the box is within 1 of 0 on each axis
+    const double world = world_rounding(tables.scene, tables.scene.scene().camera.position);
+    bounds.point_constant =
+        rounded_up(kSlack * (kFloatUnit * (length2(camera.origin) + kSceneRadius) + world));
+    // Rounded once; the weights and normals in double that it comes from leave less than 1/2 u.
+    bounds.curved_point_error = rounded_up(kSlack * (kFloatUnit * (kSceneRadius + 0.5) + world));
+    bounds.point_by_t = rounded_up(
+        kSlack * (4.2 * kFloatUnit * longest + static_cast<double>(bounds.direction_error)));
+}
+
+std::vector<BackgroundBand> bands(const std::vector<Color>& colors,
+                                  const std::vector<double>& angles) {
+    std::vector<BackgroundBand> out;
+    if (colors.empty()) return out;
+    const std::size_t count = std::min(angles.size(), colors.size() - 1);
+    double lower = 0;
+    for (std::size_t i = 0; i <= count; ++i) {
+        const bool last = i == count;
+        const double upper = last ? kInfinity : angles[i];
+        const bool flat = last || !(upper > lower);
+        const Color& from = colors[last ? count : flat ? i + 1 : i];
+        const Vector3 step = flat ? Vector3{} : colors[i + 1] - from;
+        BackgroundBand band;
+        band.upper = rounded(upper);
+        band.lower = rounded(lower);
+        band.inverse_width = flat ? 0 : rounded(1 / (upper - lower));
+        put(from, kFullByte, band.color);
+        put(step, kFullByte, band.step);
+        band.step_most = rounded_up(max_norm(step) * kFullByte);
+        band.most = rounded_up(max_norm(from) * kFullByte) + band.step_most;
+        out.push_back(band);
+        lower = upper;
+    }
+    return out;
+}
+
+void add_background(ShadingTables& tables) {
+    const Background& exact = tables.scene.scene().background;
+    ShadingBackground& out = tables.background;
+    for (const std::vector<Color>* colors : {&exact.sky_color, &exact.ground_color})
+        for (const Color& c : *colors) tables.sound = tables.sound && is_sound(c);
+    if (exact.ground_color.empty() && exact.sky_color.size() <= 1) {
+        const Color color = exact.sky_color.empty() ? Color{} : exact.sky_color[0];
+        for (std::size_t c = 0; c < 3; ++c)
+            out.middle[c] = rounded(color[static_cast<int>(c)] * kFullByte);
+        out.error = rounded_up(kSlack * kFloatUnit * kFullByte * largest(color));
+    } else if (exact.sky_color.size() == 1 && exact.ground_color.size() == 1 &&
+               exact.sky_angle.empty() && exact.ground_angle.empty()) {
+        out.kind = ShadingBackground::Kind::kBlend;
+        const Color middle = (exact.sky_color[0] + exact.ground_color[0]) * 0.5;
+        const Color slope = (exact.sky_color[0] - exact.ground_color[0]) * 0.5;
+        for (int c = 0; c < 3; ++c) {
+            out.middle[static_cast<std::size_t>(c)] = rounded(middle[c] * kFullByte);
+            out.slope[static_cast<std::size_t>(c)] = rounded(slope[c] * kFullByte);
+        }
+        // y = d_y / |d|: d's error twice, 3 roundings of |d|^2 by half, the root's 2.2 u and the
+        // product's; then those of both constants, of the product and of the sum.
+        const double y =
+            2 * static_cast<double>(tables.bounds.direction_relative) + 4.7 * kFloatUnit;
+        const double most = max_norm(slope);
+        out.error = rounded_up(kSlack * kFullByte *
+                               (most * y + kFloatUnit * (2 * max_norm(middle) + 3 * most)));
+    } else {
+        out.kind = ShadingBackground::Kind::kGradient;
+        out.has_ground = !exact.ground_color.empty();
+        out.sky = bands(exact.sky_color, exact.sky_angle);
+        if (out.sky.empty()) out.sky = bands({Color{}}, {});
+        out.ground = bands(exact.ground_color, exact.ground_angle);
+    }
+}
+
+}  // namespace
+
+SurfaceWord surface_word(const ShadingTables& tables, const Object& object) {
+    SurfaceWord word = tables.material_words[object.material];
+    if (const auto* mesh = std::get_if<TriangleMesh>(&object.shape)) {
+        if (!mesh->normals.empty()) word |= kSmoothFlag;
+        if (!mesh->colors.empty()) word |= kColoredFlag;
+    }
+    return word;
+}
+
+ShadingTables::ShadingTables(const FastScene& scene_in, const CameraRays& camera_in,
+                             InstructionSet isa)
+    : scene(scene_in), camera(camera_in) {
+    bound_rays(*this);
+    add_materials(*this);
+    add_mesh_flags(*this);
+    add_lights(*this);
+    add_background(*this);
+    const std::size_t triangles = scene.triangle_end();
+    if (!uniform) triangle_words.resize(triangles);
+    const bool few_lights = lights.size() <= kLightsWithFacing;
+    if ((any_flags & kSpecularFlag) != 0 || !few_lights) normals.resize(4 * triangles);
+    if (triangles != 0) fill_triangles(*this, isa);
+}
+
+std::size_t ShadingTables::memory_bytes() const {
+    std::size_t bytes = sizeof(*this) + materials.size() * sizeof(ShadingMaterial) +
+                        (material_words.size() + triangle_words.size()) * sizeof(SurfaceWord) +
+                        normals.size() * sizeof(float);
+    for (const ShadingLight& light : lights)
+        bytes += sizeof(light) + light.facing.size() * sizeof(float);
+    return bytes;
+}
+
+}  // namespace nuvo

@@ -1,0 +1,133 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "fast_scene.h"
+#include "tile.h"
+
+// What shading knows of a picture before its first pixel: materials, lights and background in float
+// with bounds on their errors, and for each triangle and light one number. On a flat triangle n.l
+// of a directional light is constant, and that of a point light is n.(L - a) / |L - P| with a
+// constant numerator: so most pixels need neither their normal nor a product with it.
+
+namespace nuvo {
+
+/// Half the distance from 1 to the next float: the relative error of one float operation.
+inline constexpr float kFloatUnit = 0x1p-24F;
+
+/// Bounds |n - n'| of a triangle's normals as a table and as surface_point() compute them (see
+/// shading_facing.cpp).
+inline constexpr double kTriangleNormalError = 0x1p-34;
+
+/// A material, its colors times 255.
+struct ShadingMaterial {
+    float diffuse[3];
+    float emissive[3];
+    float specular[3];
+    float diffuse_most;  ///< the largest channel
+    float emissive_most;
+    float specular_most;
+    float ambient;
+    float exponent;  ///< of the specular lobe
+    float padding[2];
+};
+static_assert(sizeof(ShadingMaterial) == 64);
+
+/// What a lane shows: index of a material (low bits) and flags.
+using SurfaceWord = std::uint32_t;
+inline constexpr SurfaceWord kMaterialMask = (1U << 24) - 1;
+inline constexpr SurfaceWord kUnlitFlag = 1U << 24;
+inline constexpr SurfaceWord kSmoothFlag = 1U << 25;   ///< has interpolated normals
+inline constexpr SurfaceWord kColoredFlag = 1U << 26;  ///< has interpolated colors
+inline constexpr SurfaceWord kSpecularFlag = 1U << 27;
+
+/// A light in the local frame. Its gain holds its intensity, and its color if that is gray.
+struct ShadingLight {
+    bool directional = false;
+    bool spot = false;
+    bool attenuated = false;  ///< anywhere in the scene
+    bool ranged = false;      ///< its radius ends within the scene
+    bool scoped = false;      ///< not all objects are in its scope
+    bool dead = false;        ///< lights nothing
+    float location[3] = {};
+    float location_error = 0;  ///< bounds |location - true location|
+    float toward[3] = {};      ///< directional: unit vector to the light
+    float axis[3] = {};        ///< spot: unit vector along its beam
+    double exact_gain = 0;
+    float gain = 0;
+    float ambient = 0;                 ///< ambient intensity, times its color if that is gray
+    float tint[3] = {1, 1, 1};         ///< its color, unless it is gray
+    float tint_most = 1;               ///< the largest channel
+    float attenuation[3] = {1, 0, 0};  ///< in local lengths
+    float radius = 0;                  ///< local
+    float beam_width = 0;
+    float cut_off = 0;
+    float inverse_width = 0;  ///< 1 / (cut_off - beam_width); infinite: a sharp edge
+    /// By slot of a flat triangle: gain times n.l (directional) or n.(L - a), n turned as
+    /// shading_normal() turns it; NaN where double is not enough to know. Empty: use normals.
+    std::vector<float> facing;
+    float facing_error = 0;  ///< absolute, beside one rounding
+};
+
+/// A gradient between two angles from the pole, times 255: color + step * (angle - lower).
+struct BackgroundBand {
+    float upper = 0;
+    float lower = 0;
+    float inverse_width = 0;
+    float color[3] = {};
+    float step[3] = {};
+    float most = 0;  ///< bounds all channels
+    float step_most = 0;
+};
+
+/// The background times 255.
+struct ShadingBackground {
+    enum class Kind : std::uint8_t { kConstant, kBlend, kGradient };
+    Kind kind = Kind::kConstant;
+    std::array<float, 3> middle{};  ///< kConstant; kBlend: at the horizon
+    std::array<float, 3> slope{};   ///< kBlend: by the sine of the height
+    float error = 0;                ///< bounds the errors in units of a byte
+    bool has_ground = false;
+    std::vector<BackgroundBand> sky;  ///< never empty for a gradient; the last has no end
+    std::vector<BackgroundBand> ground;
+};
+
+/// How far floats may be off in one picture.
+struct ShadingBounds {
+    float direction_longest = 0;   ///< bounds |d| of the picture's primary rays
+    float direction_error = 0;     ///< bounds |d in float - d|
+    float direction_relative = 0;  ///< the same in units of |d|
+    float point_constant = 0;      ///< |P in float - P| <= this + t (point_by_t + ...)
+    float point_by_t = 0;
+    float curved_point_error = 0;  ///< of points that are computed from the primitive
+    float color_error = 0;         ///< of interpolated colors, times 255
+};
+
+struct ShadingTables {
+    ShadingTables(const FastScene& scene, const CameraRays& camera, InstructionSet isa);
+
+    std::size_t memory_bytes() const;
+
+    const FastScene& scene;
+    const CameraRays& camera;
+    std::vector<ShadingMaterial> materials;   ///< without repetition
+    std::vector<SurfaceWord> material_words;  ///< by index into Scene::materials
+    std::vector<SurfaceWord> triangle_words;  ///< by slot; empty: all are the same
+    SurfaceWord common_word = 0;              ///< of all primitives, if they are the same
+    bool uniform = true;                      ///< all primitives have common_word
+    SurfaceWord any_flags = 0;                ///< of any primitive
+    int channels = 1;                         ///< of sums of light: 1 if all lights are gray
+    bool any_ambient = false;                 ///< of a light and a material
+    bool sound = true;  ///< false: a number is out of range, every pixel is for the referee
+    std::vector<ShadingLight> lights;
+    std::vector<float> normals;  ///< x, y, z, 0 by slot; empty: never asked for
+    ShadingBackground background;
+    ShadingBounds bounds;
+    /// Of a block's pixels to its first, by axis: steps of the ray's direction.
+    alignas(64) float lane_direction[3][kBlockLanes];
+};
+
+}  // namespace nuvo
