@@ -1,14 +1,15 @@
 #include "embree_frame.h"
 
-#include <immintrin.h>
-
 #include <array>
 #include <atomic>
 #include <cmath>
 #include <limits>
 #include <thread>
 
+#include "embree_calls.h"
 #include "embree_shading.h"
+
+// A frame in tiles: the primary rays of a tile in square packets, then its hits light by light.
 
 namespace nuvo::bench {
 namespace {
@@ -26,48 +27,6 @@ struct Block {
     static constexpr int kWidth = N == 16 || N == 8 ? 4 : N == 4 ? 2 : 1;
     static constexpr int kHeight = N / kWidth;
 };
-
-/// What Embree's manual asks of a thread that traces; put back afterwards.
-class FlushDenormals {
-  public:
-    FlushDenormals() : before_(_mm_getcsr()) { _mm_setcsr(before_ | kFlushAndZero); }
-    FlushDenormals(const FlushDenormals&) = delete;
-    FlushDenormals& operator=(const FlushDenormals&) = delete;
-    ~FlushDenormals() { _mm_setcsr(before_); }
-
-  private:
-    static constexpr unsigned kFlushAndZero = 0x8040;
-    unsigned before_;
-};
-
-RTCIntersectContext context_for(bool coherent) {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags =
-        coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-    return context;
-}
-
-template <int N>
-void intersect(const int* valid, RTCScene scene, RTCIntersectContext& context,
-               RTCRayHitNt<N>& pack) {
-    if constexpr (N == 1) rtcIntersect1(scene, &context, reinterpret_cast<RTCRayHit*>(&pack));
-    if constexpr (N == 4)
-        rtcIntersect4(valid, scene, &context, reinterpret_cast<RTCRayHit4*>(&pack));
-    if constexpr (N == 8)
-        rtcIntersect8(valid, scene, &context, reinterpret_cast<RTCRayHit8*>(&pack));
-    if constexpr (N == 16)
-        rtcIntersect16(valid, scene, &context, reinterpret_cast<RTCRayHit16*>(&pack));
-}
-
-template <int N>
-void occluded(const int* valid, RTCScene scene, RTCIntersectContext& context, RTCRayNt<N>& pack) {
-    if constexpr (N == 1) rtcOccluded1(scene, &context, reinterpret_cast<RTCRay*>(&pack));
-    if constexpr (N == 4) rtcOccluded4(valid, scene, &context, reinterpret_cast<RTCRay4*>(&pack));
-    if constexpr (N == 8) rtcOccluded8(valid, scene, &context, reinterpret_cast<RTCRay8*>(&pack));
-    if constexpr (N == 16)
-        rtcOccluded16(valid, scene, &context, reinterpret_cast<RTCRay16*>(&pack));
-}
 
 /// A hit with all that lighting needs.
 struct LitPoint {
@@ -328,34 +287,6 @@ Image EmbreeFrame::render(const EmbreeMode& mode, Depth depth, int threads) cons
     work();
     helpers.clear();
     return image;
-}
-
-std::vector<SingleHit> closest_hits(const EmbreeScene& scene, std::span<const Ray> rays) {
-    const FlushDenormals flush;
-    RTCIntersectContext context = context_for(false);
-    std::vector<SingleHit> hits;
-    hits.reserve(rays.size());
-    for (const Ray& ray : rays) {
-        const Float3 direction = unit(Float3(ray.direction));
-        RTCRayHit one;
-        one.ray = {static_cast<float>(ray.origin.x),
-                   static_cast<float>(ray.origin.y),
-                   static_cast<float>(ray.origin.z),
-                   0,
-                   direction.x,
-                   direction.y,
-                   direction.z,
-                   0,
-                   std::numeric_limits<float>::infinity(),
-                   ~0U,
-                   0,
-                   0};
-        one.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-        rtcIntersect1(scene.handle(), &context, &one);
-        hits.push_back({one.hit.geomID != RTC_INVALID_GEOMETRY_ID,
-                        one.hit.geomID == scene.sphere_geometry(), one.hit.primID, one.ray.tfar});
-    }
-    return hits;
 }
 
 }  // namespace nuvo::bench

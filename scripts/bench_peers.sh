@@ -136,7 +136,7 @@ run_povray() {
             --json="$out/raw/povray-$name-far.json" \
             --command nuvo "$build/nuvo" "--file=$file" "--profile=$profile" --rep=1 --quiet \
             "--out=$out/scenes/$name-nuvo.bmp" \
-            --command povray povray +WT1 +W1920 +H1080 -D -GA -A +FB "+I$out/scenes/$name-far.pov" \
+            --command povray povray +WT1 +W1920 +H1080 -D -GA -A +FB File_Gamma=1 "+I$out/scenes/$name-far.pov" \
             "+O$out/scenes/$name-povray.bmp"
     done
 }

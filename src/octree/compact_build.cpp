@@ -100,9 +100,11 @@ class Ranges {
 }  // namespace
 
 CompactOctree build_compact_octree(std::span<const Bounds3T<float>> boxes,
-                                   const CompactBuildOptions& options) {
+                                   const CompactBuildOptions& user_options) {
     CompactOctree tree;
     tree.bounds = root_box(boxes);
+    CompactBuildOptions options = user_options;
+    options.costs.beam *= max_norm(tree.bounds.widths());  // now in the boxes' units
     const Allowance allowance{options.max_references_per_item * static_cast<double>(boxes.size()),
                               CompactNode::kMaxNodes - 1.0};
     std::vector<PlanNode> plan = make_plan({tree.bounds, 1, allowance}, boxes, options);

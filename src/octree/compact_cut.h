@@ -10,6 +10,8 @@
 namespace nuvo {
 
 using ItemSpan = std::span<const std::uint32_t>;
+/// Boxes lie anywhere in memory: they are asked for by this many items before they are needed.
+inline constexpr std::size_t kPrefetchAhead = 12;
 using BoxSpan = std::span<const Bounds3T<float>>;
 
 /// The box of one octant of a cut voxel.
@@ -18,12 +20,6 @@ inline Bounds3T<float> octant_box(const CutVoxel& voxel, unsigned octant) {
     for (int axis = 0; axis < 3; ++axis)
         ((octant >> axis & 1U) != 0 ? box.min : box.max)[axis] = voxel.cut[axis];
     return box;
-}
-
-/// Half the surface of a box; the builder needs ratios only.
-inline double half_area(const Bounds3T<float>& box) {
-    const Vec3<double> w = Vec3<double>(box.max) - Vec3<double>(box.min);
-    return w.x * w.y + w.y * w.z + w.z * w.x;
 }
 
 /// The planes for these items; none where no axis can be cut.

@@ -88,6 +88,8 @@ std::size_t OctantMarker::mark_by_boxes(const CutVoxel& voxel, ItemSpan items,
     }
     std::size_t doubtful = 0;
     for (std::size_t i = 0; i < items.size(); ++i) {
+        if (i + kPrefetchAhead < items.size())
+            __builtin_prefetch(&boxes_[items[i + kPrefetchAhead]]);
         const unsigned mask = kOctantsOfSides[sides(boxes_[items[i]], voxel.cut)] & existing;
         masks[i] = static_cast<std::uint8_t>(mask);
         // Written always, kept where the count moves on: no branch to be guessed wrong.

@@ -30,23 +30,30 @@ struct Split {
     unsigned octants() const { return static_cast<unsigned>(std::popcount(occupied())); }
 };
 
-/// The surface area heuristic in units of half a square local unit. [eq. 10]
+/// The surface area heuristic [eq. 10], for beams of rays: a beam meets a voxel as often as a line
+/// meets one that is wider by the beam's width. In units of half the area of a square of width 1.
 class Prices {
   public:
     explicit Prices(const CompactCosts& costs) : costs_(costs) {}
 
     double leaf(const Bounds3T<float>& voxel, std::size_t count) const {
-        return half_area(voxel) * (costs_.leaf + static_cast<double>(count));
+        return chance(voxel) * (costs_.leaf + static_cast<double>(count));
     }
-    double interior(const Bounds3T<float>& voxel) const {
-        return half_area(voxel) * costs_.interior;
-    }
+    double interior(const Bounds3T<float>& voxel) const { return chance(voxel) * costs_.interior; }
     /// False where a cut cannot pay: it costs a step and saves at most all tests.
     bool may_pay(std::size_t count) const { return static_cast<double>(count) > costs_.interior; }
     /// With the octants taken for leaves.
     bool pays(const Split& split, std::size_t count) const;
 
   private:
+    // Of meeting the voxel, in proportion to half its surface.
+    double chance(const Bounds3T<float>& voxel) const {
+        const double x = static_cast<double>(voxel.max.x - voxel.min.x) + costs_.beam;
+        const double y = static_cast<double>(voxel.max.y - voxel.min.y) + costs_.beam;
+        const double z = static_cast<double>(voxel.max.z - voxel.min.z) + costs_.beam;
+        return x * y + y * z + z * x;
+    }
+
     CompactCosts costs_;
 };
 

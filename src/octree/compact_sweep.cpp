@@ -19,9 +19,6 @@ using Four = float __attribute__((vector_size(16)));
 using FourInts = std::int32_t __attribute__((vector_size(16)));
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr int kFewBins = 16;  // for few items
-constexpr int kManyBins = 32;
-constexpr std::size_t kFewItems = 64;
 // Of more items a sample of at least this size decides.
 constexpr std::size_t kSample = 4096;
 // How far into a gap the plane moves: 8 units in the last place of the largest local coordinates,
@@ -66,10 +63,10 @@ class Bins {
         for (int axis = 0; axis < 3; ++axis) {
             ++begins_[begin[axis]][axis];
             ++ends_[end[axis]][axis];
-            float& first = reinterpret_cast<float*>(&first_begin_[begin[axis]])[axis];
-            float& last = reinterpret_cast<float*>(&last_end_[end[axis]])[axis];
-            first = b.low[axis] < first ? b.low[axis] : first;
-            last = b.high[axis] > last ? b.high[axis] : last;
+            Four& first = first_begin_[begin[axis]];
+            Four& last = last_end_[end[axis]];
+            first[axis] = b.low[axis] < first[axis] ? b.low[axis] : first[axis];
+            last[axis] = b.high[axis] > last[axis] ? b.high[axis] : last[axis];
         }
         ++count_;
     }
@@ -131,15 +128,21 @@ template <int kBins>
 Vec3<float> planes_of_bins(const Bounds3T<float>& voxel, ItemSpan items, BoxSpan boxes) {
     Bins<kBins> bins(voxel);
     const std::size_t stride = items.size() / kSample + 1;
-    for (std::size_t i = 0; i < items.size(); i += stride) bins.add(boxes[items[i]]);
+    const std::size_t ahead = kPrefetchAhead * stride;
+    for (std::size_t i = 0; i < items.size(); i += stride) {
+        if (i + ahead < items.size()) __builtin_prefetch(&boxes[items[i + ahead]]);
+        bins.add(boxes[items[i]]);
+    }
     return bins.planes();
 }
 
 }  // namespace
 
 Vec3<float> sweep_planes(const Bounds3T<float>& voxel, ItemSpan items, BoxSpan boxes) {
-    return items.size() < kFewItems ? planes_of_bins<kFewBins>(voxel, items, boxes)
-                                    : planes_of_bins<kManyBins>(voxel, items, boxes);
+    // Bins cost time of their own; for few items fewer find planes as good.
+    if (items.size() < 20) return planes_of_bins<8>(voxel, items, boxes);
+    if (items.size() < 64) return planes_of_bins<16>(voxel, items, boxes);
+    return planes_of_bins<32>(voxel, items, boxes);
 }
 
 }  // namespace nuvo

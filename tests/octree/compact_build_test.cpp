@@ -327,7 +327,7 @@ TEST(CompactBuild, DearerStepsMakeSmallerTrees) {
     const std::vector<Box> boxes = random_boxes(15, 5000, 0.02F);
     for (const CutRule rule : kRules) {
         std::size_t last = std::numeric_limits<std::size_t>::max();
-        for (const double price : {2.0, 8.0, 32.0}) {
+        for (const double price : {3.0, 12.0, 48.0}) {
             CompactBuildOptions priced = options(rule);
             priced.costs.interior = price;
             const std::size_t nodes = build_compact_octree(boxes, priced).nodes.size();

@@ -389,8 +389,7 @@ TEST(OctantTests, NeverClearAnOctantThatATriangleTouchesInAPoint) {
         std::vector<LocalTriangle> triangles;
         for (const auto& corners : kinds) {
             LocalTriangle t;
-            for (int i = 0; i < 3; ++i)
-                for (int axis = 0; axis < 3; ++axis) t.corner[i][axis] = corners[i][axis];
+            for (int i = 0; i < 3; ++i) t.corner[i] = corners[i];
             triangles.push_back(t);
         }
         const std::uint8_t touched = octants_at(place.voxel, p);
@@ -415,11 +414,10 @@ TEST(OctantTests, NeverClearAnOctantThatASphereTouchesInAPoint) {
         Vec3<float> away;
         for (int axis = 0; axis < 3; ++axis)
             away[axis] = static_cast<float>(q[axis]) * unit * (random() % 2 == 0 ? 1.0F : -1.0F);
-        const std::size_t turn = random() % 3;
+        const auto turn = static_cast<int>(random() % 3);
         LocalSphere sphere;
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            sphere.center[axis] =
-                place.point[static_cast<int>(axis)] + away[static_cast<int>((axis + turn) % 3)];
+        for (int axis = 0; axis < 3; ++axis)
+            sphere.center[axis] = place.point[axis] + away[(axis + turn) % 3];
         sphere.radius = static_cast<float>(q[3]) * unit;
         const std::uint8_t touched = octants_at(place.voxel, place.point);
         const std::vector<LocalSphere> spheres{sphere};
@@ -448,8 +446,7 @@ TEST(OctantTests, ClearAlmostAllThatTheTestInDoubleClears) {
         for (LocalTriangle& t : triangles) {
             items.push_back(static_cast<std::uint32_t>(items.size()));
             for (auto& corner : t.corner) {
-                const Vec3<float> q = p + vector(4 * size);
-                for (int axis = 0; axis < 3; ++axis) corner[axis] = q[axis];
+                corner = p + vector(4 * size);
             }
         }
         std::vector<std::uint8_t> masks(items.size(), 0xff);
@@ -460,9 +457,7 @@ TEST(OctantTests, ClearAlmostAllThatTheTestInDoubleClears) {
                 for (int axis = 0; axis < 3; ++axis)
                     ((o >> axis & 1U) != 0 ? box.min : box.max)[axis] = voxel.cut[axis];
                 const auto& c = triangles[i].corner;
-                const Triangle t{{c[0][0], c[0][1], c[0][2]},
-                                 {c[1][0], c[1][1], c[1][2]},
-                                 {c[2][0], c[2][1], c[2][2]}};
+                const Triangle t{Point3(c[0]), Point3(c[1]), Point3(c[2])};
                 const bool in_double = overlaps(t, box);
                 const bool in_float = (masks[i] >> o & 1U) != 0;
                 ASSERT_TRUE(in_float || !in_double);

@@ -17,25 +17,25 @@
 HWY_BEFORE_NAMESPACE();
 namespace nuvo::HWY_NAMESPACE {
 
-using Doubles = Lanes<double, 8>;
+using Numbers = Lanes<double, 8>;
 inline constexpr int kGroup = 8;
 
 struct Triple {
-    Doubles x, y, z;
+    Numbers x, y, z;
 
     friend HWY_INLINE Triple operator-(const Triple& a, const Triple& b) {
         return {a.x - b.x, a.y - b.y, a.z - b.z};
     }
-    friend HWY_INLINE Triple operator*(const Triple& a, const Doubles& s) {
+    friend HWY_INLINE Triple operator*(const Triple& a, const Numbers& s) {
         return {a.x * s, a.y * s, a.z * s};
     }
-    friend HWY_INLINE Doubles dot(const Triple& a, const Triple& b) {
+    friend HWY_INLINE Numbers dot(const Triple& a, const Triple& b) {
         return a.x * b.x + a.y * b.y + a.z * b.z;
     }
     friend HWY_INLINE Triple cross(const Triple& a, const Triple& b) {
         return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
     }
-    friend HWY_INLINE Doubles max_norm(const Triple& a) {
+    friend HWY_INLINE Numbers max_norm(const Triple& a) {
         return max(abs(a.x), max(abs(a.y), abs(a.z)));
     }
 };
@@ -55,7 +55,7 @@ class TriangleGroup {
         const Triple p = load(corners, 0);
         const Triple q = load(corners, 3);
         const Triple r = load(corners, 6);
-        const Doubles scale(scale_);
+        const Numbers scale(scale_);
         const Triple a = (p - eye_) * scale;
         const Triple b = (q - eye_) * scale;
         const Triple c = (r - eye_) * scale;
@@ -63,28 +63,28 @@ class TriangleGroup {
         const Triple ca = (p - r) * scale;
         const Triple ab = (q - p) * scale;
         const Triple normal = cross(ca, ab);
-        const Doubles constant = dot(normal, a);
-        const Doubles edge = max(max_norm(ab), max_norm(ca)) + max_norm(bc);
-        const Doubles reach = max(max_norm(a), max(max_norm(b), max_norm(c)));
+        const Numbers constant = dot(normal, a);
+        const Numbers edge = max(max_norm(ab), max_norm(ca)) + max_norm(bc);
+        const Numbers reach = max(max_norm(a), max(max_norm(b), max_norm(c)));
         // Each component of an edge plane has two products of three roundings and a difference; the
         // direction's own roundings and its unit length in the exact ray add 12 more.
-        const Doubles direction(extent_.direction);
-        const Doubles relative(2 * gamma(32));
-        const Doubles normal_error = relative * edge * edge;
-        const Doubles inverse = Doubles(1.0) / constant;
-        const Doubles sign = select(constant > Doubles(0.0), Doubles(1.0), Doubles(-1.0));
-        const Doubles edge_error = relative * edge * reach * direction;
+        const Numbers direction(extent_.direction);
+        const Numbers relative(2 * gamma(32));
+        const Numbers normal_error = relative * edge * edge;
+        const Numbers inverse = Numbers(1.0) / constant;
+        const Numbers sign = select(constant > Numbers(0.0), Numbers(1.0), Numbers(-1.0));
+        const Numbers edge_error = relative * edge * reach * direction;
         double value[4][4][kGroup];  // a, b, c, e of u, v, w, q
         fill(value, 0, cross(b, bc) * sign, edge_error);
         fill(value, 1, cross(c, ca) * sign, edge_error);
         fill(value, 2, cross(a, ab) * sign, edge_error);
         // The relative error of K.
-        const Doubles share = Doubles(3.0) * normal_error * reach * abs(inverse);
-        const Doubles size = fill(value, 3, normal * inverse,
-                                  normal_error * direction * abs(inverse), Doubles(2.0) * share);
+        const Numbers share = Numbers(3.0) * normal_error * reach * abs(inverse);
+        const Numbers size = fill(value, 3, normal * inverse,
+                                  normal_error * direction * abs(inverse), Numbers(2.0) * share);
         // Infinite or NaN: floats cannot tell.
-        const std::uint32_t good = ((share < Doubles(0.25)) & (size < Doubles(kLargest)) &
-                                    (edge_error < Doubles(kLargest)))
+        const std::uint32_t good = ((share < Numbers(0.25)) & (size < Numbers(kLargest)) &
+                                    (edge_error < Numbers(kLargest)))
                                        .bits();
         write(value, good, out, count);
     }
@@ -94,25 +94,25 @@ class TriangleGroup {
     static constexpr double kLargest = 0x1p120;
 
     static HWY_INLINE Triple broadcast(const Vector3& v) {
-        return {Doubles(v.x), Doubles(v.y), Doubles(v.z)};
+        return {Numbers(v.x), Numbers(v.y), Numbers(v.z)};
     }
     static HWY_INLINE Triple load(const double (&corners)[9][kGroup], int i) {
-        return {Doubles::load(corners[i]), Doubles::load(corners[i + 1]),
-                Doubles::load(corners[i + 2])};
+        return {Numbers::load(corners[i]), Numbers::load(corners[i + 1]),
+                Numbers::load(corners[i + 2])};
     }
 
     // One function with its bound: `error` is that of the double stage. Returns a bound of |value|.
-    HWY_INLINE Doubles fill(double (&value)[4][4][kGroup], int i, const Triple& plane,
-                            const Doubles& error, const Doubles& relative = Doubles(0.0)) const {
-        const Doubles a = dot(plane, right_);
-        const Doubles b = dot(plane, down_);
-        const Doubles c = dot(plane, forward_);
-        const Doubles size = abs(a) * Doubles(extent_.x) + abs(b) * Doubles(extent_.y) + abs(c);
+    HWY_INLINE Numbers fill(double (&value)[4][4][kGroup], int i, const Triple& plane,
+                            const Numbers& error, const Numbers& relative = Numbers(0.0)) const {
+        const Numbers a = dot(plane, right_);
+        const Numbers b = dot(plane, down_);
+        const Numbers c = dot(plane, forward_);
+        const Numbers size = abs(a) * Numbers(extent_.x) + abs(b) * Numbers(extent_.y) + abs(c);
         a.store(value[0][i]);
         b.store(value[1][i]);
         c.store(value[2][i]);
-        const Doubles bound = error + size * (relative + Doubles(kCameraRoundings * kRoundoff));
-        (bound * Doubles(1 + 2 * kRoundoff) + Doubles(kTableUnderflow)).store(value[3][i]);
+        const Numbers bound = error + size * (relative + Numbers(kCameraRoundings * kRoundoff));
+        (bound * Numbers(1 + 2 * kRoundoff) + Numbers(kTableUnderflow)).store(value[3][i]);
         return size;
     }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "big_vector.h"
+#include "nuvo/math/parallel.h"
 #include "nuvo/octree/compact_build.h"
 #include "octant_tests.h"
 
@@ -37,58 +39,83 @@ LocalFrame frame_of(const Primitives& primitives) {
     return frame;
 }
 
-// A float at most (least) the true number that `value` is rounded from by a relative 2^-53 or an
-// absolute 2^-1074: one float unit and more away from the nearest, at least the smallest normal
-// one.
-float rounded_down(double value) {
-    const auto nearest = static_cast<float>(value);
+// Below (above) the true number from which `nearest` was rounded: by one unit in the last place and
+// more, at least by the smallest normal number. Local coordinates in double are off by a relative
+// 2^-53 or an absolute 2^-1074, of which nothing matters here.
+float below(float nearest) {
     return nearest - (std::fabs(nearest) * 0x1p-23F + std::numeric_limits<float>::min());
 }
-float rounded_up(double value) { return -rounded_down(-value); }
+float above(float nearest) { return -below(-nearest); }
+
+Bounds3T<float> widened(const Bounds3T<float>& box) {
+    return {{below(box.min.x), below(box.min.y), below(box.min.z)},
+            {above(box.max.x), above(box.max.y), above(box.max.z)}};
+}
 
 Bounds3T<float> local_box(const LocalFrame& frame, const Bounds3& box) {
-    const Point3 low = frame.local(box.min);
-    const Point3 high = frame.local(box.max);
-    return {{rounded_down(low.x), rounded_down(low.y), rounded_down(low.z)},
-            {rounded_up(high.x), rounded_up(high.y), rounded_up(high.z)}};
+    return widened({Vec3<float>(frame.local(box.min)), Vec3<float>(frame.local(box.max))});
 }
 
 // What the octree's construction needs, by slot.
 struct LocalItems {
-    std::vector<Bounds3T<float>> boxes;
-    std::vector<LocalTriangle> triangles;
-    std::vector<LocalSphere> spheres;
+    BigVector<Bounds3T<float>> boxes;
+    BigVector<LocalTriangle> triangles;
+    BigVector<LocalSphere> spheres;
 };
 
-void put_point(const Point3& p, float (&out)[3]) {
-    for (int axis = 0; axis < 3; ++axis) out[axis] = static_cast<float>(p[axis]);
-}
+class LocalItemsMaker {
+  public:
+    explicit LocalItemsMaker(const FastScene& fast) : fast_(fast), frame_(fast.frame()) {
+        items_.boxes.resize(fast.slot_end());
+        items_.triangles.resize(fast.triangle_end());
+        items_.spheres.resize(fast.sphere_end() - fast.triangle_end());
+    }
 
-LocalItems local_items(const FastScene& fast) {
-    LocalItems items;
-    const LocalFrame& frame = fast.frame();
-    items.boxes.resize(fast.slot_end());
-    items.triangles.resize(fast.triangle_end());
-    items.spheres.resize(fast.sphere_end() - fast.triangle_end());
-    for (Slot slot = 0; slot < fast.slot_end(); ++slot) {
-        items.boxes[slot] = local_box(frame, fast.primitives().item_boxes[fast.id(slot)]);
-        const PrimitiveSource& source = fast.source(slot);
-        const Shape& shape = fast.scene().objects[source.object].shape;
-        if (slot < fast.triangle_end()) {
-            const Triangle t = std::get<TriangleMesh>(shape).triangle(source.triangle);
-            LocalTriangle& local = items.triangles[slot];
-            put_point(frame.local(t.a), local.corner[0]);
-            put_point(frame.local(t.b), local.corner[1]);
-            put_point(frame.local(t.c), local.corner[2]);
-        } else if (slot < fast.sphere_end()) {
-            const Sphere& s = std::get<Sphere>(shape);
-            LocalSphere& local = items.spheres[slot - fast.triangle_end()];
-            put_point(frame.local(s.center), local.center);
-            local.radius = static_cast<float>(s.radius * frame.scale);
+    LocalItems make(int threads) && {
+        constexpr Slot kChunk = 4096;
+        const Slot end = fast_.slot_end();
+        for_each_index(threads, (end + kChunk - 1) / kChunk, [&](std::size_t i, int) {
+            const Slot first = static_cast<Slot>(i) * kChunk;
+            const Slot last = std::min(end, first + kChunk);
+            put_triangles(first, std::min(last, fast_.triangle_end()));
+            for (Slot slot = std::max(first, fast_.triangle_end()); slot < last; ++slot)
+                put_round(slot);
+        });
+        return std::move(items_);
+    }
+
+  private:
+    void put_triangles(Slot slot, Slot last) {
+        while (slot < last) {
+            const std::uint32_t object = fast_.source(slot).object;
+            const auto& mesh = std::get<TriangleMesh>(fast_.scene().objects[object].shape);
+            for (; slot < last && fast_.source(slot).object == object; ++slot) {
+                const IndexTriple& corners = mesh.triangles[fast_.source(slot).triangle];
+                Bounds3T<float> box;
+                for (std::size_t i = 0; i < 3; ++i) {
+                    const Vec3<float> p(frame_.local(mesh.positions[corners[i]]));
+                    items_.triangles[slot].corner[i] = p;
+                    box = box.extended(p);
+                }
+                items_.boxes[slot] = widened(box);
+            }
         }
     }
-    return items;
-}
+
+    void put_round(Slot slot) {
+        items_.boxes[slot] = local_box(frame_, fast_.primitives().item_boxes[fast_.id(slot)]);
+        if (slot >= fast_.sphere_end()) return;
+        const Object& object = fast_.scene().objects[fast_.source(slot).object];
+        const Sphere& sphere = std::get<Sphere>(object.shape);
+        items_.spheres[slot - fast_.triangle_end()] = {
+            Vec3<float>(frame_.local(sphere.center)),
+            static_cast<float>(sphere.radius * frame_.scale)};
+    }
+
+    const FastScene& fast_;
+    const LocalFrame& frame_;
+    LocalItems items_;
+};
 
 // Items ascend, so those of a kind stand together. Of an ellipsoid the box decides.
 OctantTest octant_test(const LocalItems& items) {
@@ -134,7 +161,7 @@ FastScene::FastScene(const Scene& scene, const Primitives& primitives, OctreeTyp
         for (PrimitiveId id = 0; id < slot_end_; ++id)
             ids_[next[kind_of(scene.objects[primitives.sources[id].object])]++] = id;
     }
-    const LocalItems items = local_items(*this);
+    const LocalItems items = LocalItemsMaker(*this).make(threads);
     CompactBuildOptions options;
     options.rule = type == OctreeType::kUniform ? CutRule::kSpatial : CutRule::kSweep;
     options.overlaps = octant_test(items);

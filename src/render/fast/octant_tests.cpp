@@ -86,7 +86,7 @@ HWY_INLINE Corners load_corners(const LocalTriangle* triangles, const Ints& offs
     Corners c;
     c.widest = Floats(0.0F);
     c.longest = Floats(0.0F);
-    const float* base = triangles->corner[0];
+    const float* base = &triangles->corner[0].x;
     for (int axis = 0; axis < 3; ++axis) {
         for (int i = 0; i < 3; ++i) {
             c.at[i][axis] = Floats::gather(base + 3 * i + axis, offset) - octants.origin[axis];
@@ -192,7 +192,7 @@ void clear_spheres(const LocalSphere* spheres, std::uint32_t first, const CutVox
         Floats center[3];
         Floats widest(0.0F);
         for (int axis = 0; axis < 3; ++axis) {
-            center[axis] = Floats::gather(spheres->center + axis, offset) - octants.origin[axis];
+            center[axis] = Floats::gather(&spheres->center.x + axis, offset) - octants.origin[axis];
             widest = max(widest, abs(center[axis]));
         }
         const Floats radius = Floats::gather(&spheres->radius, offset);

@@ -9,11 +9,11 @@ namespace nuvo {
 
 /// A triangle's corners in the local frame, each rounded to nearest.
 struct LocalTriangle {
-    float corner[3][3];
+    Vec3<float> corner[3];
 };
 /// A sphere in the local frame, each number rounded to nearest.
 struct LocalSphere {
-    float center[3];
+    Vec3<float> center;
     float radius;
 };
 

@@ -15,25 +15,25 @@
 HWY_BEFORE_NAMESPACE();
 namespace nuvo::HWY_NAMESPACE {
 
-using Doubles = Lanes<double, 8>;
+using Numbers = Lanes<double, 8>;
 
 struct DoubleVectors {
-    Doubles x, y, z;
+    Numbers x, y, z;
 
     HWY_INLINE DoubleVectors operator-(const DoubleVectors& b) const {
         return {x - b.x, y - b.y, z - b.z};
     }
-    HWY_INLINE DoubleVectors operator*(const Doubles& s) const { return {x * s, y * s, z * s}; }
-    HWY_INLINE Doubles norm1() const { return abs(x) + abs(y) + abs(z); }
-    HWY_INLINE Doubles dot(const DoubleVectors& b) const { return x * b.x + y * b.y + z * b.z; }
+    HWY_INLINE DoubleVectors operator*(const Numbers& s) const { return {x * s, y * s, z * s}; }
+    HWY_INLINE Numbers norm1() const { return abs(x) + abs(y) + abs(z); }
+    HWY_INLINE Numbers dot(const DoubleVectors& b) const { return x * b.x + y * b.y + z * b.z; }
     HWY_INLINE DoubleVectors cross(const DoubleVectors& b) const {
         return {y * b.z - z * b.y, z * b.x - x * b.z, x * b.y - y * b.x};
     }
     static HWY_INLINE DoubleVectors all(const Vector3& v) {
-        return {Doubles(v.x), Doubles(v.y), Doubles(v.z)};
+        return {Numbers(v.x), Numbers(v.y), Numbers(v.z)};
     }
     static HWY_INLINE DoubleVectors load(const double (*from)[8]) {
-        return {Doubles::load(from[0]), Doubles::load(from[1]), Doubles::load(from[2])};
+        return {Numbers::load(from[0]), Numbers::load(from[1]), Numbers::load(from[2])};
     }
 };
 
@@ -108,11 +108,11 @@ class PlanesMaker {
         const DoubleVectors from_a = local_a * weight_ - toward_;
         const DoubleVectors from_b = local_b * weight_ - toward_;
         const DoubleVectors normal = e1.cross(e2);
-        const Doubles side = signs(first, count, normal.dot(from_a), e1.norm1() * e2.norm1());
+        const Numbers side = signs(first, count, normal.dot(from_a), e1.norm1() * e2.norm1());
         put(0, e1.cross(from_a), side, local_a, e1.norm1() * size_);
         put(1, from_a.cross(e2), side, local_a, e2.norm1() * size_);
         put(2, e3.cross(from_b), side, local_b, e3.norm1() * size_);
-        put(3, normal, Doubles(0.0) - side, local_a, e1.norm1() * e2.norm1());
+        put(3, normal, Numbers(0.0) - side, local_a, e1.norm1() * e2.norm1());
         for (std::size_t i = 0; i < count; ++i) {
             ShadowPlanes& planes = job_.out[first + i];
             for (int p = 0; p < 4; ++p)
@@ -123,15 +123,15 @@ class PlanesMaker {
     }
 
     // 1 where the light is on the side that the normal points to, -1 or 0: of -n.v.
-    HWY_INLINE Doubles signs(Slot first, std::size_t count, const Doubles& nv,
-                             const Doubles& edges) {
-        const Doubles bound = edges * (size_ * Doubles(kSideError)) + Doubles(kSmallest);
+    HWY_INLINE Numbers signs(Slot first, std::size_t count, const Numbers& nv,
+                             const Numbers& edges) {
+        const Numbers bound = edges * (size_ * Numbers(kSideError)) + Numbers(kSmallest);
         const auto sure = abs(nv) > bound;
-        const Doubles rounded = select(nv > Doubles(0.0), Doubles(-1.0), Doubles(1.0));
+        const Numbers rounded = select(nv > Numbers(0.0), Numbers(-1.0), Numbers(1.0));
         rounded.store(sides_);
         for (std::uint32_t open = ~sure.bits() & ((1U << count) - 1); open != 0; open &= open - 1)
             decide(first, static_cast<unsigned>(std::countr_zero(open)));
-        return Doubles::load(sides_);
+        return Numbers::load(sides_);
     }
     HWY_NOINLINE void decide(Slot first, unsigned i) {
         const auto corner = [i](const double(*from)[kBatch]) {
@@ -142,28 +142,28 @@ class PlanesMaker {
         static_cast<void>(first);
     }
 
-    HWY_INLINE void put(int p, const DoubleVectors& normal, const Doubles& sign,
-                        const DoubleVectors& on_it, const Doubles& magnitude) {
-        const Doubles norm = normal.norm1();
-        const auto known = (norm > magnitude * Doubles(kNormalError / kShare)) &
-                           (norm > Doubles(kSmallest)) & (norm < Doubles(1 / kSmallest));
-        const Doubles factor = select(known, sign / norm, Doubles(0.0));
-        const DoubleVectors n = DoubleVectors{select(known, normal.x, Doubles(0.0)),
-                                              select(known, normal.y, Doubles(0.0)),
-                                              select(known, normal.z, Doubles(0.0))} *
+    HWY_INLINE void put(int p, const DoubleVectors& normal, const Numbers& sign,
+                        const DoubleVectors& on_it, const Numbers& magnitude) {
+        const Numbers norm = normal.norm1();
+        const auto known = (norm > magnitude * Numbers(kNormalError / kShare)) &
+                           (norm > Numbers(kSmallest)) & (norm < Numbers(1 / kSmallest));
+        const Numbers factor = select(known, sign / norm, Numbers(0.0));
+        const DoubleVectors n = DoubleVectors{select(known, normal.x, Numbers(0.0)),
+                                              select(known, normal.y, Numbers(0.0)),
+                                              select(known, normal.z, Numbers(0.0))} *
                                 factor;
         n.x.store(made_[p][0]);
         n.y.store(made_[p][1]);
         n.z.store(made_[p][2]);
-        (Doubles(0.0) - n.dot(on_it)).store(made_[p][3]);
+        (Numbers(0.0) - n.dot(on_it)).store(made_[p][3]);
     }
 
     const ShadowPlanesJob& job_;
     DoubleVectors center_;
     DoubleVectors toward_;
-    Doubles scale_;
-    Doubles weight_;
-    Doubles size_;  // bounds |v|
+    Numbers scale_;
+    Numbers weight_;
+    Numbers size_;  // bounds |v|
     Corners corners_;
     alignas(64) double sides_[kBatch];
     alignas(64) double made_[4][4][kBatch];

@@ -1,0 +1,61 @@
+#include "nuvo/render/fast.h"
+
+#include <cmath>
+
+#include "dispatch.h"
+#include "exact_kernel.h"
+#include "frame.h"
+
+namespace nuvo {
+namespace {
+
+// In units of the scene's width. Floats tell nothing of a scene seen from beyond; the serial tracer
+// takes over, with the same picture.
+constexpr double kFarthestCamera = 0x1p20;
+
+FastOptions with_isa(FastOptions options) {
+    options.isa = resolved(options.isa);
+    return options;
+}
+
+bool is_near(const LocalFrame& frame, const Camera& camera) {
+    return max_norm(frame.local(camera.position)) < kFarthestCamera;
+}
+
+}  // namespace
+
+struct FastTracer::State {
+    State(const Scene& scene, const Primitives& primitives, const FastOptions& given)
+        : options(with_isa(given)),
+          fast(scene, primitives, options.type, options.threads),
+          triangles(triangle_bounds(scene, primitives)) {}
+
+    FastOptions options;
+    FastScene fast;
+    Bounds3 triangles;
+    std::size_t table_bytes = 0;
+};
+
+FastTracer::FastTracer(const Scene& scene, const Primitives& primitives, const FastOptions& options)
+    : state_(std::make_unique<State>(scene, primitives, options)) {}
+FastTracer::~FastTracer() = default;
+FastTracer::FastTracer(FastTracer&&) noexcept = default;
+FastTracer& FastTracer::operator=(FastTracer&&) noexcept = default;
+
+Image FastTracer::render(Resolution resolution, FastTimes* times) {
+    const FastScene& fast = state_->fast;
+    if (!is_near(fast.frame(), fast.scene().camera)) {
+        const Profile profile = exact_profile();
+        const Octree octree = build_tree(fast.scene(), fast.primitives(), profile);
+        return nuvo::render(fast.scene(), fast.primitives(), octree, profile, resolution);
+    }
+    Frame frame(fast, state_->triangles, state_->options, resolution);
+    state_->table_bytes = frame.memory_bytes();
+    return frame.render(times);
+}
+
+FastMemory FastTracer::memory() const {
+    return {state_->fast.octree().memory_bytes(), state_->table_bytes};
+}
+
+}  // namespace nuvo

@@ -1,0 +1,169 @@
+#include "frame.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <exception>
+#include <thread>
+
+#include "camera_tables.h"
+#include "primary.h"
+#include "shading.h"
+#include "shadow.h"
+#include "tile_order.h"
+
+// The picture tile by tile: primary rays, surfaces, and for each light its samples, its shadows and
+// its sum; then bytes. Tiles share nothing but tables that are only read and the picture they write
+// disjoint parts of, so any number of threads gives the same bytes.
+
+namespace nuvo {
+namespace {
+
+double seconds_now() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
+        .count();
+}
+
+// Adds up the time between marks; where nobody asks, not even the clock is read.
+class StageClock {
+  public:
+    explicit StageClock(bool on) : on_(on), last_(on ? seconds_now() : 0) {}
+    void add_to(double& stage) {
+        if (!on_) return;
+        const double now = seconds_now();
+        stage += now - last_;
+        last_ = now;
+    }
+
+  private:
+    bool on_;
+    double last_;
+};
+
+}  // namespace
+
+struct Frame::Tables {
+    Tables(const FastScene& scene, const Bounds3& triangle_box, const FastOptions& options,
+           Resolution resolution)
+        : rays(scene.scene().camera, resolution, scene.frame()),
+          triangles(triangle_box),
+          camera(scene, rays, options.isa),
+          shadow(scene, options.isa),
+          shading(scene, rays, options.isa),
+          tiles(tiles_in_order(resolution)) {}
+
+    CameraRays rays;
+    Bounds3 triangles;
+    CameraTables camera;
+    ShadowTables shadow;
+    ShadingStage shading;  // copied by each thread; the copies share its tables
+    std::vector<TilePlace> tiles;
+};
+
+/// One thread's stages.
+class Frame::Worker {
+  public:
+    Worker(const FastScene& scene, const Tables& tables, const FastOptions& options)
+        : scene_(scene),
+          referee_(scene, tables.rays, tables.triangles),
+          job_{scene, tables.rays, tables.camera, referee_, options.redo_exactly, {}},
+          primary_(options.isa),
+          shadow_(tables.shadow, options.isa, options.redo_exactly),
+          shading_(tables.shading) {}
+
+    void trace(TilePlace place, Image& image, FastTimes* times) {
+        FastTimes spent;
+        StageClock clock(times != nullptr);
+        tile_.x = place.column * kTileSide;
+        tile_.y = place.row * kTileSide;
+        primary_.trace(job_, tile_);
+        clock.add_to(spent.primary);
+        if (hit_anything()) {
+            shading_.surface(tile_);
+            const std::vector<Light>& lights = scene_.scene().lights;
+            for (std::size_t light = 0; light < lights.size(); ++light) {
+                TileMask wanted;
+                shading_.sample(tile_, light, wanted);
+                clock.add_to(spent.shading);
+                TileMask lit;
+                std::copy(std::begin(wanted), std::end(wanted), std::begin(lit));
+                if (lights[light].casts_shadow) shadow_.trace(tile_, light, wanted, referee_, lit);
+                clock.add_to(spent.shadow);
+                shading_.add(light, lit);
+            }
+        }
+        shading_.finish(tile_, referee_, image);
+        clock.add_to(spent.shading);
+        if (times == nullptr) return;
+        times->primary += spent.primary;
+        times->shadow += spent.shadow;
+        times->shading += spent.shading;
+    }
+
+  private:
+    bool hit_anything() const {
+        return std::any_of(std::begin(tile_.hit), std::end(tile_.hit),
+                           [](std::uint16_t lanes) { return lanes != 0; });
+    }
+
+    const FastScene& scene_;
+    Referee referee_;
+    PrimaryJob job_;
+    PrimaryStage primary_;
+    ShadowStage shadow_;
+    ShadingStage shading_;
+    Tile tile_{};
+};
+
+Frame::Frame(const FastScene& scene, const Bounds3& triangles, const FastOptions& options,
+             Resolution resolution)
+    : scene_(scene), options_(options) {
+    const double start = seconds_now();
+    tables_ = std::make_unique<Tables>(scene, triangles, options, resolution);
+    table_seconds_ = seconds_now() - start;
+}
+
+Frame::~Frame() = default;
+
+std::size_t Frame::memory_bytes() const {
+    return tables_->camera.memory_bytes() + tables_->shadow.memory_bytes() +
+           tables_->shading.tables().memory_bytes();
+}
+
+Image Frame::render(FastTimes* times) {
+    const Resolution size = tables_->rays.resolution;
+    Image image(size.width, size.height);
+    std::atomic<std::size_t> next{0};
+    const auto threads = static_cast<std::size_t>(options_.threads);
+    std::vector<FastTimes> spent(threads);
+    std::vector<std::exception_ptr> failures(threads);
+    const auto work = [&](std::size_t thread) {
+        try {
+            Worker worker(scene_, *tables_, options_);
+            for (;;) {
+                const std::size_t i = next.fetch_add(1, std::memory_order_relaxed);
+                if (i >= tables_->tiles.size()) return;
+                worker.trace(tables_->tiles[i], image, times ? &spent[thread] : nullptr);
+            }
+        } catch (...) {
+            failures[thread] = std::current_exception();
+        }
+    };
+    std::vector<std::thread> others;
+    for (std::size_t i = 1; i < threads; ++i) others.emplace_back(work, i);
+    work(0);
+    for (std::thread& other : others) other.join();
+    for (const std::exception_ptr& failure : failures)
+        if (failure) std::rethrow_exception(failure);
+    if (times != nullptr) {
+        times->tables += table_seconds_;
+        for (const FastTimes& part : spent) {
+            times->primary += part.primary;
+            times->shadow += part.shadow;
+            times->shading += part.shading;
+        }
+    }
+    return image;
+}
+
+}  // namespace nuvo
