@@ -26,22 +26,25 @@ namespace nuvo::HWY_NAMESPACE {
 class BlockDirections {
   public:
     HWY_INLINE BlockDirections(const ShadingTables& tables, const Tile& tile, int b)
-        : tables_(tables),
-          first_(
-              tables.camera.direction(tables.camera.center_x(tile.x + lane_x(b * kBlockLanes)),
-                                      tables.camera.center_y(tile.y + lane_y(b * kBlockLanes)))) {}
+        : rays_(tables.rays),
+          x_(static_cast<std::size_t>(tile.x + lane_x(b * kBlockLanes))),
+          y_(static_cast<std::size_t>(tile.y + lane_y(b * kBlockLanes)) * kBlockSide) {}
 
-    /// Of the block's first lane.
-    const Vector3& first() const { return first_; }
-    /// Within ShadingBounds::direction_error, all axes together.
+    /// Within ShadingRays::error, all axes together.
     HWY_INLINE Floats at(int axis) const {
-        return Floats(static_cast<float>(first_[axis])) +
-               Floats::load(tables_.lane_direction[axis]);
+        return Floats::load_repeated(rays_.column[axis].data() + x_) +
+               Floats::load(rays_.row[axis].data() + y_);
+    }
+    /// d.d
+    HWY_INLINE Floats square() const {
+        return Floats::load_repeated(rays_.column_square.data() + x_) +
+               Floats::load(rays_.row_square.data() + y_);
     }
 
   private:
-    const ShadingTables& tables_;
-    Vector3 first_;
+    const ShadingRays& rays_;
+    std::size_t x_;
+    std::size_t y_;
 };
 
 /// The steps of a block's lanes to the right and down.
@@ -88,7 +91,9 @@ class CurvedLanes {
           directions_(directions),
           block_(b),
           center_x_(static_cast<float>(tables.camera.center_x(tile.x + lane_x(first_)))),
-          center_y_(static_cast<float>(tables.camera.center_y(tile.y + lane_y(first_)))) {}
+          center_y_(static_cast<float>(tables.camera.center_y(tile.y + lane_y(first_)))),
+          first_direction_(tables.camera.direction(static_cast<double>(center_x_),
+                                                   static_cast<double>(center_y_))) {}
 
     HWY_NOINLINE void fill(std::uint32_t lanes) {
         const Ints slots = Ints::load(reinterpret_cast<const std::int32_t*>(tile_.slot) + first_);
@@ -128,7 +133,7 @@ class CurvedLanes {
         return std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z);
     }
     HWY_INLINE Doubles affine_dot(const Vector3& v) const {
-        return affine(dot(v, directions_.first()), dot(v, tables_.camera.right),
+        return affine(dot(v, first_direction_), dot(v, tables_.camera.right),
                       dot(v, tables_.camera.down));
     }
     // The lanes that are not `known` get NaN, and the referee.
@@ -165,7 +170,7 @@ class CurvedLanes {
         const bool sure = std::fabs(power - 1) > kSideError * (power + 1);
         const double q = kCrossError * (1 + norm1(f));
         set_up_rays();
-        const Vector3 first = cross(f, directions_.first());
+        const Vector3 first = cross(f, first_direction_);
         const Vector3 right = cross(f, tables_.camera.right);
         const Vector3 down = cross(f, tables_.camera.down);
         Doubles rest = rays_.square;
@@ -176,7 +181,7 @@ class CurvedLanes {
             m[i] = floats_from(value);
         }
         const Floats square = floats_from(rest);
-        const auto longest = static_cast<double>(tables_.bounds.direction_longest);
+        const auto longest = static_cast<double>(tables_.rays.longest);
         const auto least = static_cast<float>(kDigits * q * longest * longest);
         const RayMask known = square > Floats(sure ? least : kInfinity);
         Floats s = square * inverse_sqrt(square);
@@ -206,7 +211,7 @@ class CurvedLanes {
         if (rays_.ready) return;
         rays_.ready = true;
         rays_.square = Doubles(0.0);
-        const Vector3& first = directions_.first();
+        const Vector3& first = first_direction_;
         for (int i = 0; i < 3; ++i) {
             const Doubles d = affine(first[i], tables_.camera.right[i], tables_.camera.down[i]);
             rays_.square = mul_add(d, d, rays_.square);
@@ -227,7 +232,7 @@ class CurvedLanes {
         const Floats error = Floats::load(tile_.round_error + first_) * Floats(kRootOf3);
         RayMask known = lanes_;
         if (!solid) {
-            const float longest = tables_.bounds.direction_longest;
+            const float longest = tables_.rays.longest;
             known = abs(along) > mul_add(error, Floats(longest), Floats(8 * kUnit * longest));
             for (Floats& n : normal) n = select(along > Floats(0.0F), -n, n);
         }
@@ -288,7 +293,7 @@ class CurvedLanes {
         const Doubles y = affine_dot(cross(e1, from)) * inverse;
         const double edges = norm1(e1) + norm1(e2);
         const double noise = kTripleError * (norm1(from) + edges) * edges *
-                             static_cast<double>(tables_.bounds.direction_longest);
+                             static_cast<double>(tables_.rays.longest);
         const RayMask known =
             abs(floats_from(s)) >
             Floats(static_cast<float>(kWeightDigits * noise) + std::numeric_limits<float>::min());
@@ -320,6 +325,7 @@ class CurvedLanes {
     // X and Y of the block's first lane.
     float center_x_;
     float center_y_;
+    Vector3 first_direction_;
     Floats smooth_[3];
     Floats smooth_error_;
     std::uint32_t smooth_bits_ = 0;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "fast_scene.h"
+#include "shading_rays.h"
 #include "tile.h"
 
 // What shading knows of a picture before its first pixel: materials, lights and background in float
@@ -114,10 +115,7 @@ struct ShadingBackground {
 
 /// How far floats may be off in one picture.
 struct ShadingBounds {
-    float direction_longest = 0;   ///< bounds |d| of the picture's primary rays
-    float direction_error = 0;     ///< bounds |d in float - d|
-    float direction_relative = 0;  ///< the same in units of |d|
-    float point_constant = 0;      ///< |P in float - P| <= this + t (point_by_t + ...)
+    float point_constant = 0;  ///< |P in float - P| <= this + t (point_by_t + ...)
     float point_by_t = 0;
     float curved_point_error = 0;  ///< of a sphere's points, without its normal's part
     float color_error = 0;         ///< of interpolated colors, times 255
@@ -130,6 +128,7 @@ struct ShadingTables {
 
     const FastScene& scene;
     const CameraRays& camera;
+    ShadingRays rays;
     std::vector<ShadingMaterial> materials;   ///< without repetition
     std::vector<SurfaceWord> material_words;  ///< by index into Scene::materials
     std::vector<SurfaceWord> triangle_words;  ///< by slot; empty: all are the same
@@ -145,8 +144,6 @@ struct ShadingTables {
     std::vector<std::uint32_t> smooth_offsets;  ///< by object: place of a slot is slot - offset
     ShadingBackground background;
     ShadingBounds bounds;
-    /// Of a block's pixels to its first, by axis: steps of the ray's direction.
-    alignas(64) float lane_direction[3][kBlockLanes];
 };
 
 }  // namespace nuvo
