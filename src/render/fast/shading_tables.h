@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "big_vector.h"
 #include "fast_scene.h"
 #include "shading_rays.h"
 #include "tile.h"
@@ -69,7 +70,7 @@ struct ShadingLight {
     float inverse_width = 0;  ///< 1 / (cut_off - beam_width); infinite: a sharp edge
     /// By slot of a flat triangle: gain times n.l (directional) or n.(L - a), n turned as
     /// shading_normal() turns it; NaN where double is not enough to know. Empty: use normals.
-    std::vector<float> facing;
+    BigVector<float> facing;
     float facing_error = 0;  ///< absolute, beside one rounding
 };
 
@@ -131,7 +132,7 @@ struct ShadingTables {
     ShadingRays rays;
     std::vector<ShadingMaterial> materials;   ///< without repetition
     std::vector<SurfaceWord> material_words;  ///< by index into Scene::materials
-    std::vector<SurfaceWord> triangle_words;  ///< by slot; empty: all are the same
+    BigVector<SurfaceWord> triangle_words;  ///< by slot; empty: all are the same
     SurfaceWord common_word = 0;              ///< of all primitives, if they are the same
     bool uniform = true;                      ///< all primitives have common_word
     SurfaceWord any_flags = 0;                ///< of any primitive
@@ -139,8 +140,8 @@ struct ShadingTables {
     bool any_ambient = false;                 ///< of a light and a material
     bool sound = true;  ///< false: a number is out of range, every pixel is for the referee
     std::vector<ShadingLight> lights;
-    std::vector<float> normals;                 ///< x, y, z, 0 by slot; empty: never asked for
-    std::vector<SmoothTriangle> smooth;         ///< of the meshes with interpolated normals
+    BigVector<float> normals;                 ///< x, y, z, 0 by slot; empty: never asked for
+    BigVector<SmoothTriangle> smooth;         ///< of the meshes with interpolated normals
     std::vector<std::uint32_t> smooth_offsets;  ///< by object: place of a slot is slot - offset
     ShadingBackground background;
     ShadingBounds bounds;
