@@ -102,24 +102,12 @@ class CurvedLanes {
             const std::uint32_t same =
                 (slots == Ints(static_cast<std::int32_t>(slot))).bits() & lanes;
             lanes &= ~same;
-            const PrimitiveSource& source = scene_.source(slot);
-            const Object& object = scene_.scene().objects[source.object];
             lanes_ = RayMask::from_bits(same);
             bits_ = same;
-            if (const auto* mesh = std::get_if<TriangleMesh>(&object.shape)) {
-                fill_triangle(*mesh, source.object, source.triangle, slot);
-                continue;
-            }
-            if (!tables_.uniform) {
-                const SurfaceWord word = tables_.material_words[object.material];
-                Ints(static_cast<std::int32_t>(word))
-                    .store(reinterpret_cast<std::int32_t*>(scratch_.word) + first_,
-                           mask_for<std::int32_t>(lanes_));
-            }
-            if (const auto* sphere = std::get_if<Sphere>(&object.shape))
-                fill_sphere(*sphere, object.solid);
+            if (slot < scene_.triangle_end())
+                fill_triangle(slot);
             else
-                fill_ellipsoid(object.solid);
+                fill_round(slot, tables_.spheres[slot - scene_.triangle_end()]);
         }
         if (smooth_bits_ != 0) finish_smooth();
     }
@@ -159,12 +147,13 @@ class CurvedLanes {
     // that its float is good to the last digit. In float |m| <= |d|, so d x m has the roundings of
     // d and m and 3 more; s has its own, half of its square's and the root's 3.2, with d and the
     // product 5.2; 1 / d.d, its product and the sum 3: all that is kSphereNormalError in units.
-    HWY_INLINE void fill_sphere(const Sphere& sphere, bool solid) {
+    HWY_INLINE void fill_sphere(const CameraSphere& sphere) {
         constexpr double kCrossError = 0x1p-49;  // 8 roundings of f x d
         constexpr double kDigits = 0x1p28;
         constexpr double kSideError = 0x1p-48;
         constexpr float kSphereNormalError = 14 * kUnit;
-        const Vector3 f = (scene_.scene().camera.position - sphere.center) / sphere.radius;
+        const Vector3 from{sphere.from[0], sphere.from[1], sphere.from[2]};
+        const Vector3 f = from * (1 / sphere.exact_radius);
         const double power = dot(f, f);
         const bool inside = power < 1;
         const bool sure = std::fabs(power - 1) > kSideError * (power + 1);
@@ -186,9 +175,9 @@ class CurvedLanes {
         const RayMask known = square > Floats(sure ? least : kInfinity);
         Floats s = square * inverse_sqrt(square);
         if (inside) s = -s;
-        const Point3 center = scene_.frame().local(sphere.center);
-        const auto radius = static_cast<float>(sphere.radius * scene_.frame().scale);
-        const float turn = inside && !solid ? -1 : 1;
+        const Point3 center = tables_.camera.origin - from;
+        const float radius = sphere.radius;
+        const float turn = inside && !sphere.solid ? -1 : 1;
         Floats normal[3];
         Floats point[3];
         for (int i = 0; i < 3; ++i) {
@@ -239,11 +228,27 @@ class CurvedLanes {
         store_normal(normal, known, error);
     }
 
-    void fill_triangle(const TriangleMesh& mesh, std::uint32_t object, std::uint32_t index,
-                       Slot slot) {
-        if (!mesh.colors.empty()) fill_color(mesh, index);
-        if (!mesh.normals.empty())
-            add_smooth(tables_.smooth[slot - tables_.smooth_offsets[object]]);
+    HWY_INLINE void fill_triangle(Slot slot) {
+        const SurfaceWord word = tables_.triangle_words[slot];
+        const PrimitiveSource& source = scene_.source(slot);
+        if ((word & kColoredFlag) != 0)
+            fill_color(std::get<TriangleMesh>(scene_.scene().objects[source.object].shape),
+                       source.triangle);
+        if ((word & kSmoothFlag) != 0)
+            add_smooth(tables_.smooth[slot - tables_.smooth_offsets[source.object]]);
+    }
+
+    HWY_INLINE void fill_round(Slot slot, const CameraSphere& sphere) {
+        if (!tables_.uniform) {
+            const SurfaceWord word = tables_.material_words[sphere.material];
+            Ints(static_cast<std::int32_t>(word))
+                .store(reinterpret_cast<std::int32_t*>(scratch_.word) + first_,
+                       mask_for<std::int32_t>(lanes_));
+        }
+        if (slot < scene_.sphere_end())
+            fill_sphere(sphere);
+        else
+            fill_ellipsoid(sphere.solid);
     }
 
     // The normal's direction in these lanes; its length waits for those of other triangles.

@@ -324,8 +324,8 @@ SurfaceWord surface_word(const ShadingTables& tables, const Object& object) {
 }
 
 ShadingTables::ShadingTables(const FastScene& scene_in, const CameraRays& camera_in,
-                             InstructionSet isa)
-    : scene(scene_in), camera(camera_in), rays(camera_in) {
+                             const BigVector<CameraSphere>& spheres_in, InstructionSet isa)
+    : scene(scene_in), camera(camera_in), spheres(spheres_in), rays(camera_in) {
     bound_points(*this);
     add_materials(*this);
     add_mesh_flags(*this);

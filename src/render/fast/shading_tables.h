@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "big_vector.h"
+#include "camera_tables.h"
 #include "fast_scene.h"
 #include "shading_rays.h"
 #include "tile.h"
@@ -123,16 +124,19 @@ struct ShadingBounds {
 };
 
 struct ShadingTables {
-    ShadingTables(const FastScene& scene, const CameraRays& camera, InstructionSet isa);
+    /// Keeps references; `spheres` are those of CameraTables.
+    ShadingTables(const FastScene& scene, const CameraRays& camera,
+                  const BigVector<CameraSphere>& spheres, InstructionSet isa);
 
     std::size_t memory_bytes() const;
 
     const FastScene& scene;
     const CameraRays& camera;
+    const BigVector<CameraSphere>& spheres;
     ShadingRays rays;
     std::vector<ShadingMaterial> materials;   ///< without repetition
     std::vector<SurfaceWord> material_words;  ///< by index into Scene::materials
-    BigVector<SurfaceWord> triangle_words;  ///< by slot; empty: all are the same
+    BigVector<SurfaceWord> triangle_words;    ///< by slot; empty: all are the same
     SurfaceWord common_word = 0;              ///< of all primitives, if they are the same
     bool uniform = true;                      ///< all primitives have common_word
     SurfaceWord any_flags = 0;                ///< of any primitive
@@ -140,8 +144,8 @@ struct ShadingTables {
     bool any_ambient = false;                 ///< of a light and a material
     bool sound = true;  ///< false: a number is out of range, every pixel is for the referee
     std::vector<ShadingLight> lights;
-    BigVector<float> normals;                 ///< x, y, z, 0 by slot; empty: never asked for
-    BigVector<SmoothTriangle> smooth;         ///< of the meshes with interpolated normals
+    BigVector<float> normals;                   ///< x, y, z, 0 by slot; empty: never asked for
+    BigVector<SmoothTriangle> smooth;           ///< of the meshes with interpolated normals
     std::vector<std::uint32_t> smooth_offsets;  ///< by object: place of a slot is slot - offset
     ShadingBackground background;
     ShadingBounds bounds;
