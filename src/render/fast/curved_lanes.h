@@ -16,9 +16,8 @@
 #include "fast/vector_math.h"
 
 // Surfaces whose normal or color varies within the primitive: for each primitive that a block
-// shows, its functions of the pixel are set up once, in double, and evaluated for all 16 lanes. The
-// vectors f x d (sphere) and the edge functions (triangle) are affine in the pixel, so a lane costs
-// a few operations, whose errors stay far below half a unit of a float; then one rounding.
+// shows, its functions of the pixel are evaluated for all 16 lanes. The vectors f x d (sphere) and
+// the edge functions (triangle) are affine in the pixel, so a lane costs a few operations.
 
 HWY_BEFORE_NAMESPACE();
 namespace nuvo::HWY_NAMESPACE {
@@ -46,22 +45,27 @@ class BlockDirections {
 };
 
 /// The steps of a block's lanes to the right and down.
-inline constexpr std::array<double, 16> kStepsRight{0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
-inline constexpr std::array<double, 16> kStepsDown{0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
+struct alignas(64) BlockSteps {
+    constexpr BlockSteps() {
+        for (int lane = 0; lane < kBlockLanes; ++lane) {
+            right[lane] = static_cast<float>(lane_x(lane));
+            down[lane] = static_cast<float>(lane_y(lane));
+            right_double[lane] = lane_x(lane);
+            down_double[lane] = lane_y(lane);
+        }
+    }
+    float right[kBlockLanes] = {};
+    float down[kBlockLanes] = {};
+    double right_double[kBlockLanes] = {};
+    double down_double[kBlockLanes] = {};
+};
+inline constexpr BlockSteps kSteps;
 
 /// first + right * (steps right) + down * (steps down).
 HWY_INLINE Doubles affine(double first, double right, double down) {
-    return mul_add(Doubles::load(kStepsRight.data()), Doubles(right),
-                   mul_add(Doubles::load(kStepsDown.data()), Doubles(down), Doubles(first)));
+    return mul_add(Doubles::load(kSteps.right_double), Doubles(right),
+                   mul_add(Doubles::load(kSteps.down_double), Doubles(down), Doubles(first)));
 }
-
-struct Doubles3 {
-    HWY_INLINE Doubles dot(const Doubles3& other) const {
-        return mul_add(axis[0], other.axis[0],
-                       mul_add(axis[1], other.axis[1], axis[2] * other.axis[2]));
-    }
-    Doubles axis[3];
-};
 
 // From an estimate in float one step of Newton's, which squares its error and adds a few
 // roundings: within kNewtonError.
@@ -70,14 +74,6 @@ HWY_INLINE Doubles precise_reciprocal(const Doubles& v) {
     const Doubles e = doubles_from(reciprocal(floats_from(v)));
     return e * neg_mul_add(v, e, Doubles(2.0));
 }
-HWY_INLINE Doubles precise_inverse_sqrt(const Doubles& v) {
-    const Doubles e = doubles_from(inverse_sqrt(floats_from(v)));
-    return e * neg_mul_add(v * Doubles(0.5), e * e, Doubles(1.5));
-}
-
-/// Bounds the error of normals of unit length that leave less than half a unit before their only
-/// rounding.
-inline constexpr float kCurvedNormalError = 2 * kUnit;
 
 /// Fills lanes of one block.
 class CurvedLanes {
@@ -90,7 +86,9 @@ class CurvedLanes {
           scratch_(scratch),
           first_(b * kBlockLanes),
           directions_(directions),
-          block_(b) {}
+          block_(b),
+          center_x_(static_cast<float>(tables.camera.center_x(tile.x + lane_x(first_)))),
+          center_y_(static_cast<float>(tables.camera.center_y(tile.y + lane_y(first_)))) {}
 
     HWY_NOINLINE void fill(std::uint32_t lanes) {
         const Ints slots = Ints::load(reinterpret_cast<const std::int32_t*>(tile_.slot) + first_);
@@ -104,7 +102,7 @@ class CurvedLanes {
             lanes_ = RayMask::from_bits(same);
             bits_ = same;
             if (const auto* mesh = std::get_if<TriangleMesh>(&object.shape)) {
-                fill_triangle(*mesh, source.triangle, object.solid);
+                fill_triangle(*mesh, source.object, source.triangle, slot);
                 continue;
             }
             if (!tables_.uniform) {
@@ -118,11 +116,13 @@ class CurvedLanes {
             else
                 fill_ellipsoid(object.solid);
         }
+        if (smooth_bits_ != 0) finish_smooth();
     }
 
   private:
     static constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
     static constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    static constexpr float kSmallEnough = 1.0F / 16;  // 1 / (1 - x) <= 1 + 1.07 x
 
     static double norm1(const Vector3& v) {
         return std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z);
@@ -131,22 +131,6 @@ class CurvedLanes {
         return affine(dot(v, directions_.first()), dot(v, tables_.camera.right),
                       dot(v, tables_.camera.down));
     }
-    HWY_INLINE Doubles3 affine_cross(const Vector3& v) const {
-        const Vector3 first = cross(v, directions_.first());
-        const Vector3 right = cross(v, tables_.camera.right);
-        const Vector3 down = cross(v, tables_.camera.down);
-        Doubles3 out;
-        for (int i = 0; i < 3; ++i) out.axis[i] = affine(first[i], right[i], down[i]);
-        return out;
-    }
-    HWY_INLINE Doubles3 direction() const {
-        const Vector3& first = directions_.first();
-        Doubles3 out;
-        for (int i = 0; i < 3; ++i)
-            out.axis[i] = affine(first[i], tables_.camera.right[i], tables_.camera.down[i]);
-        return out;
-    }
-
     // The lanes that are not `known` get NaN, and the referee.
     HWY_INLINE void store_normal(const Floats (&n)[3], const RayMask& known, const Floats& error) {
         for (int i = 0; i < 3; ++i)
@@ -158,55 +142,77 @@ class CurvedLanes {
     HWY_INLINE void give_up(const RayMask& lanes) {
         Floats(kInfinity).store(scratch_.diffuse_error + first_, lanes);
     }
-    HWY_INLINE void store_point(const Floats (&p)[3], const RayMask& known) {
+    HWY_INLINE void store_point(const Floats (&p)[3], const RayMask& known, float error) {
         const RayMask stored = lanes_ & known;
         for (int i = 0; i < 3; ++i) p[i].store(tile_.point[i] + first_, stored);
-        Floats(tables_.bounds.curved_point_error).store(tile_.point_error + first_, stored);
+        Floats(error).store(tile_.point_error + first_, stored);
     }
 
     // m = f x d / r with f from the centre to the camera; the unit normal is (d x m -+ s d) / d.d
     // with s^2 = d.d - m.m. (Haines et al. 2019, "Precision improvements for ray/sphere
-    // intersection".) The error of m is below q |d|, that of s below 2 q d.d / s; the normal's is
-    // small enough where s > 2^28 q |d|.
+    // intersection".) s^2 is formed in double: below q d.d it is noise, and where it is 2^28 times
+    // that its float is good to the last digit. In float |m| <= |d|, so d x m has the roundings of
+    // d and m and 3 more; s has its own, half of its square's and the root's 3.2, with d and the
+    // product 5.2; 1 / d.d, its product and the sum 3: all that is kSphereNormalError in units.
     HWY_INLINE void fill_sphere(const Sphere& sphere, bool solid) {
         constexpr double kCrossError = 0x1p-49;  // 8 roundings of f x d
-        constexpr double kMostOfHalfUnit = 0x1p28;
+        constexpr double kDigits = 0x1p28;
         constexpr double kSideError = 0x1p-48;
+        constexpr float kSphereNormalError = 14 * kUnit;
         const Vector3 f = (scene_.scene().camera.position - sphere.center) / sphere.radius;
-        const double square = dot(f, f);
-        const bool inside = square < 1;
-        const bool sure = std::fabs(square - 1) > kSideError * (square + 1);
+        const double power = dot(f, f);
+        const bool inside = power < 1;
+        const bool sure = std::fabs(power - 1) > kSideError * (power + 1);
         const double q = kCrossError * (1 + norm1(f));
-        const Doubles3 d = direction();
-        const Doubles3 m = affine_cross(f);
-        const Doubles dd = d.dot(d);
-        const Doubles rest = dd - m.dot(m);
-        const Floats estimate = sqrt(floats_from(rest));
-        const Doubles e = doubles_from(estimate);
-        const Doubles half = doubles_from(Floats(0.5F) / estimate);
-        Doubles s = mul_add(neg_mul_add(e, e, rest), half, e);
-        const float least = static_cast<float>(
-            kMostOfHalfUnit * q * static_cast<double>(tables_.bounds.direction_longest));
-        const RayMask known = estimate > Floats(sure ? least : kInfinity);
+        set_up_rays();
+        const Vector3 first = cross(f, directions_.first());
+        const Vector3 right = cross(f, tables_.camera.right);
+        const Vector3 down = cross(f, tables_.camera.down);
+        Doubles rest = rays_.square;
+        Floats m[3];
+        for (int i = 0; i < 3; ++i) {
+            const Doubles value = affine(first[i], right[i], down[i]);
+            rest = neg_mul_add(value, value, rest);
+            m[i] = floats_from(value);
+        }
+        const Floats square = floats_from(rest);
+        const auto longest = static_cast<double>(tables_.bounds.direction_longest);
+        const auto least = static_cast<float>(kDigits * q * longest * longest);
+        const RayMask known = square > Floats(sure ? least : kInfinity);
+        Floats s = square * inverse_sqrt(square);
         if (inside) s = -s;
-        Doubles scale = precise_reciprocal(dd);
-        const LocalFrame& frame = scene_.frame();
-        const Point3 center = frame.local(sphere.center);
-        const double radius = sphere.radius * frame.scale;
+        const Point3 center = scene_.frame().local(sphere.center);
+        const auto radius = static_cast<float>(sphere.radius * scene_.frame().scale);
+        const float turn = inside && !solid ? -1 : 1;
         Floats normal[3];
         Floats point[3];
         for (int i = 0; i < 3; ++i) {
             const int next = (i + 1) % 3;
             const int last = (i + 2) % 3;
-            const Doubles across =
-                neg_mul_add(d.axis[last], m.axis[next], d.axis[next] * m.axis[last]);
-            const Doubles n = neg_mul_add(s, d.axis[i], across) * scale;
-            point[i] = floats_from(mul_add(n, Doubles(radius), Doubles(center[i])));
-            normal[i] = floats_from(n);
-            if (inside && !solid) normal[i] = -normal[i];
+            const Floats across = neg_mul_add(rays_.d[last], m[next], rays_.d[next] * m[last]);
+            const Floats n = neg_mul_add(s, rays_.d[i], across) * rays_.inverse_square;
+            point[i] = mul_add(n, Floats(radius), Floats(static_cast<float>(center[i])));
+            normal[i] = n * Floats(turn);
         }
-        store_normal(normal, known, Floats(kCurvedNormalError));
-        store_point(point, known);
+        store_normal(normal, known, Floats(kSphereNormalError));
+        // P: of centre and sum, and the radius's times the normal's and two more.
+        const float error =
+            (kSphereNormalError + 3 * kUnit) * radius + tables_.bounds.curved_point_error;
+        store_point(point, known, error);
+    }
+
+    // The block's rays once for all its spheres.
+    HWY_INLINE void set_up_rays() {
+        if (rays_.ready) return;
+        rays_.ready = true;
+        rays_.square = Doubles(0.0);
+        const Vector3& first = directions_.first();
+        for (int i = 0; i < 3; ++i) {
+            const Doubles d = affine(first[i], tables_.camera.right[i], tables_.camera.down[i]);
+            rays_.square = mul_add(d, d, rays_.square);
+            rays_.d[i] = floats_from(d);
+        }
+        rays_.inverse_square = reciprocal(floats_from(rays_.square));
     }
 
     // The primary stage has its normal from the referee.
@@ -228,11 +234,49 @@ class CurvedLanes {
         store_normal(normal, known, error);
     }
 
+    void fill_triangle(const TriangleMesh& mesh, std::uint32_t object, std::uint32_t index,
+                       Slot slot) {
+        if (!mesh.colors.empty()) fill_color(mesh, index);
+        if (!mesh.normals.empty())
+            add_smooth(tables_.smooth[slot - tables_.smooth_offsets[object]]);
+    }
+
+    // The normal's direction in these lanes; its length waits for those of other triangles.
+    HWY_INLINE void add_smooth(const SmoothTriangle& t) {
+        const Floats x = Floats::load(kSteps.right) + Floats(center_x_ - t.x);
+        const Floats y = Floats::load(kSteps.down) + Floats(center_y_ - t.y);
+        for (int i = 0; i < 3; ++i) {
+            const Floats n =
+                mul_add(x, Floats(t.right[i]), mul_add(y, Floats(t.down[i]), Floats(t.at[i])));
+            smooth_[i] = select(lanes_, n, smooth_[i]);
+        }
+        constexpr float kReach = kBlockSide - 1;
+        const float error = t.error + t.error_right * (std::fabs(center_x_ - t.x) + kReach) +
+                            t.error_down * (std::fabs(center_y_ - t.y) + kReach);
+        smooth_error_ = select(lanes_, Floats(error), smooth_error_);
+        smooth_bits_ |= bits_;
+    }
+
+    // The error of the direction; of the length 3 u of the square by half, the root's, a product.
+    HWY_INLINE void finish_smooth() {
+        lanes_ = RayMask::from_bits(smooth_bits_);
+        bits_ = smooth_bits_;
+        Floats square(0.0F);
+        for (const Floats& n : smooth_) square = mul_add(n, n, square);
+        const Floats inverse = inverse_sqrt(square);
+        const Floats relative = smooth_error_ * inverse;
+        const RayMask known = relative < Floats(kSmallEnough);
+        Floats normal[3];
+        for (int i = 0; i < 3; ++i) normal[i] = smooth_[i] * inverse;
+        store_normal(normal, known, mul_add(relative, Floats(1.07F), Floats(4.8F * kUnit)));
+    }
+
     // Weights V / S and W / S as surface_point() has them. Below 2^-49 of its magnitudes a triple
     // product is noise; where S is 2^29 times that, the weights are within 2^-29.
-    HWY_INLINE void fill_triangle(const TriangleMesh& mesh, std::uint32_t index, bool solid) {
+    void fill_color(const TriangleMesh& mesh, std::uint32_t index) {
         constexpr double kTripleError = 0x1p-49;
         constexpr double kWeightDigits = 0x1p29;
+        constexpr double kFullByte = 255;
         const Triangle t = mesh.triangle(index);
         const double scale = scene_.frame().scale;
         const Vector3 from = (t.a - scene_.scene().camera.position) * scale;
@@ -245,66 +289,22 @@ class CurvedLanes {
         const double edges = norm1(e1) + norm1(e2);
         const double noise = kTripleError * (norm1(from) + edges) * edges *
                              static_cast<double>(tables_.bounds.direction_longest);
-        const Floats determinant = floats_from(s);
-        const RayMask known = abs(determinant) > Floats(static_cast<float>(kWeightDigits * noise) +
-                                                        std::numeric_limits<float>::min());
-        if (!mesh.colors.empty()) fill_color(mesh, index, x, y, known);
-        if (mesh.normals.empty()) return;
-        const Point3 a = scene_.frame().local(t.a);
-        Floats point[3];
-        for (int i = 0; i < 3; ++i)
-            point[i] =
-                floats_from(mul_add(x, Doubles(e1[i]), mul_add(y, Doubles(e2[i]), Doubles(a[i]))));
-        store_point(point, known);
-        fill_smooth_normal(mesh, index, x, y, known, solid ? Floats(1.0F) : determinant);
-    }
-
-    // Normals at the corners are at most 1 long on each axis here; from their blend's length
-    // upwards of 1/4 its error stays small. `facing` is negative where the normal has to turn.
-    HWY_INLINE void fill_smooth_normal(const TriangleMesh& mesh, std::uint32_t index,
-                                       const Doubles& x, const Doubles& y, const RayMask& known,
-                                       const Floats& facing) {
-        constexpr float kLeastSquare = 0x1p-4F;
-        const IndexTriple& corner =
-            (mesh.normal_triangles.empty() ? mesh.triangles : mesh.normal_triangles)[index];
-        const Vector3& n0 = mesh.normals[corner[0]];
-        const Vector3& n1 = mesh.normals[corner[1]];
-        const Vector3& n2 = mesh.normals[corner[2]];
-        const double longest = std::fmax(max_norm(n0), std::fmax(max_norm(n1), max_norm(n2)));
-        const double factor = 1 / longest;  // NaN ends where floats give up, too
-        const Doubles3 n = blend(n0 * factor, n1 * factor, n2 * factor, x, y);
-        const Doubles square = n.dot(n);
-        const Doubles inverse = precise_inverse_sqrt(square);
-        Floats normal[3];
-        for (int i = 0; i < 3; ++i) {
-            const Floats unit = floats_from(n.axis[i] * inverse);
-            normal[i] = select(facing < Floats(0.0F), -unit, unit);
-        }
-        store_normal(normal, known & (floats_from(square) > Floats(kLeastSquare)),
-                     Floats(kCurvedNormalError));
-    }
-
-    HWY_INLINE void fill_color(const TriangleMesh& mesh, std::uint32_t index, const Doubles& x,
-                               const Doubles& y, const RayMask& known) {
-        constexpr double kFullByte = 255;
+        const RayMask known =
+            abs(floats_from(s)) >
+            Floats(static_cast<float>(kWeightDigits * noise) + std::numeric_limits<float>::min());
         const IndexTriple& corner =
             (mesh.color_triangles.empty() ? mesh.triangles : mesh.color_triangles)[index];
-        const Doubles3 color =
-            blend(mesh.colors[corner[0]] * kFullByte, mesh.colors[corner[1]] * kFullByte,
-                  mesh.colors[corner[2]] * kFullByte, x, y);
-        for (int c = 0; c < 3; ++c)
-            floats_from(color.axis[c]).store(scratch_.color[c] + first_, lanes_);
+        const Color& c0 = mesh.colors[corner[0]];
+        const Color c1 = mesh.colors[corner[1]] - c0;
+        const Color c2 = mesh.colors[corner[2]] - c0;
+        for (int c = 0; c < 3; ++c) {
+            const Doubles color =
+                mul_add(x, Doubles(c1[c] * kFullByte),
+                        mul_add(y, Doubles(c2[c] * kFullByte), Doubles(c0[c] * kFullByte)));
+            floats_from(color).store(scratch_.color[c] + first_, lanes_);
+        }
         give_up(without(lanes_, known));
         scratch_.colored[block_] = static_cast<std::uint16_t>(scratch_.colored[block_] | bits_);
-    }
-
-    static HWY_INLINE Doubles3 blend(const Vector3& v0, const Vector3& v1, const Vector3& v2,
-                                     const Doubles& x, const Doubles& y) {
-        Doubles3 out;
-        for (int i = 0; i < 3; ++i)
-            out.axis[i] = mul_add(x, Doubles(v1[i] - v0[i]),
-                                  mul_add(y, Doubles(v2[i] - v0[i]), Doubles(v0[i])));
-        return out;
     }
 
     const ShadingTables& tables_;
@@ -316,6 +316,20 @@ class CurvedLanes {
     int block_;
     RayMask lanes_;
     std::uint32_t bits_ = 0;
+
+    // X and Y of the block's first lane.
+    float center_x_;
+    float center_y_;
+    Floats smooth_[3];
+    Floats smooth_error_;
+    std::uint32_t smooth_bits_ = 0;
+
+    struct Rays {
+        Floats d[3];
+        Doubles square;  // d.d
+        Floats inverse_square;
+        bool ready = false;
+    } rays_;
 };
 
 }  // namespace nuvo::HWY_NAMESPACE

@@ -55,6 +55,13 @@ Image FastTracer::render(Resolution resolution, FastTimes* times) {
     return frame.render(times);
 }
 
+std::vector<RayAnswer> FastTracer::closest_hits(std::span<const Ray> rays) const {
+    const FastScene& fast = state_->fast;
+    const Profile profile = exact_profile();
+    const Octree octree = build_tree(fast.scene(), fast.primitives(), profile);
+    return nuvo::closest_hits(fast.scene(), fast.primitives(), &octree, profile, rays);
+}
+
 RayCounts FastTracer::count_rays(Resolution resolution) const {
     const FastScene& fast = state_->fast;
     if (is_near(fast.frame(), fast.scene().camera))

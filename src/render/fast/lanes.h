@@ -124,8 +124,10 @@ struct Lanes : LaneShape<T, N> {
     /// The lanes of `mask` side by side; returns their number. Up to N lanes are written.
     HWY_INLINE std::size_t compress_store(T* to, const Mask& mask) const {
         std::size_t count = 0;
-        for (std::size_t i = 0; i < Shape::kParts; ++i)
-            count += hn::CompressStore(part[i], mask.part[i], Tag(), to + count);
+        for (std::size_t i = 0; i < Shape::kParts; ++i) {
+            hn::StoreU(hn::Compress(part[i], mask.part[i]), Tag(), to + count);
+            count += hn::CountTrue(Tag(), mask.part[i]);
+        }
         return count;
     }
     /// base[index[lane]]; indices of lanes that are not wanted must be valid, too.
@@ -309,6 +311,24 @@ HWY_INLINE float highest(const Floats& v) {
     for (std::size_t i = 1; i < Floats::Shape::kParts; ++i) all = hn::Max(all, v.part[i]);
     return hn::GetLane(hn::MaxOfLanes(Floats::Tag(), all));
 }
+
+/// The lowest (highest) of lanes 4 i .. 4 i + 3 in each of these.
+HWY_INLINE Floats lowest_of_fours(Floats v) {
+#if HWY_TARGET == HWY_SCALAR
+    for (std::size_t i = 0; i < 16; i += 4) {
+        const auto ab = hn::Min(v.part[i], v.part[i + 1]);
+        const auto all = hn::Min(ab, hn::Min(v.part[i + 2], v.part[i + 3]));
+        for (std::size_t k = 0; k < 4; ++k) v.part[i + k] = all;
+    }
+#else
+    for (auto& part : v.part) {
+        part = hn::Min(part, hn::Shuffle2301(part));
+        part = hn::Min(part, hn::Shuffle1032(part));
+    }
+#endif
+    return v;
+}
+HWY_INLINE Floats highest_of_fours(const Floats& v) { return -lowest_of_fours(-v); }
 
 }  // namespace nuvo::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -22,9 +22,9 @@ class Mailbox {
     bool seen(Slot slot) {
         std::uint64_t& last = last_[slot % kPlaces];
         const std::uint64_t now = run_ << 32 | slot;
-        if (last == now) return true;
+        const bool again = last == now;  // no branch: it would be foreseen badly
         last = now;
-        return false;
+        return again;
     }
 
   private:

@@ -1,5 +1,6 @@
 #include "fast/shading_facing.h"
 
+#include <cmath>
 #include <limits>
 
 #include "nuvo/math/error_bounds.h"
@@ -9,6 +10,7 @@
 #include <hwy/foreach_target.h>
 
 #include "fast/lanes.h"
+#include "fast/wide_triangles.h"
 
 // Normals of triangles and what they say about each light, in double, 8 triangles at a time.
 //
@@ -21,27 +23,16 @@
 HWY_BEFORE_NAMESPACE();
 namespace nuvo::HWY_NAMESPACE {
 
-inline constexpr std::size_t kBatch = 8;
-using Wide = Lanes<double, kBatch>;
-
 constexpr double kMagnitudes = 0x1p15;
 // Squares of smaller products may be subnormal.
 constexpr double kSmallestSquare = 0x1p-900;
 
-struct Wide3 {
-    Wide x, y, z;
-};
-HWY_INLINE Wide3 operator-(const Wide3& a, const Wide3& b) {
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-HWY_INLINE Wide3 operator*(const Wide3& a, const Wide& s) { return {a.x * s, a.y * s, a.z * s}; }
-HWY_INLINE Wide dot(const Wide3& a, const Wide3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-HWY_INLINE Wide norm1(const Wide3& a) { return abs(a.x) + abs(a.y) + abs(a.z); }
-HWY_INLINE Wide3 wide(const Vector3& v) { return {Wide(v.x), Wide(v.y), Wide(v.z)}; }
-
 struct Batch {
     double corner[9][kBatch] = {};
-    double two_sided[kBatch] = {};  // 1: not solid
+    double normal[9][kBatch] = {};        // of smooth triangles
+    double two_sided[kBatch] = {};        // 1: not solid
+    SmoothTriangle* smooth[kBatch] = {};  // null: flat
+    bool any_smooth = false;
 };
 
 class TriangleFiller {
@@ -51,63 +42,83 @@ class TriangleFiller {
 
     void run() {
         const FastScene& scene = tables_.scene;
-        Batch batch;
         std::size_t filled = 0;
         std::uint32_t object = ~0U;
-        const TriangleMesh* mesh = nullptr;
-        SurfaceWord word = 0;
-        bool two_sided = false;
         for (Slot slot = 0; slot < scene.triangle_end(); ++slot) {
             const PrimitiveSource& source = scene.source(slot);
             if (source.object != object) {
                 object = source.object;
-                const Object& shown = scene.scene().objects[object];
-                mesh = &std::get<TriangleMesh>(shown.shape);
-                word = surface_word(tables_, shown);
-                two_sided = !shown.solid;
+                enter(object);
             }
-            if (!tables_.triangle_words.empty()) tables_.triangle_words[slot] = word;
-            const IndexTriple& corners = mesh->triangles[source.triangle];
-            for (std::size_t i = 0; i < 3; ++i)
-                for (int axis = 0; axis < 3; ++axis)
-                    batch.corner[i * 3 + static_cast<std::size_t>(axis)][filled] =
-                        mesh->positions[corners[i]][axis];
-            batch.two_sided[filled] = two_sided ? 1 : 0;
+            put(slot, source.triangle, filled);
             if (++filled == kBatch) {
-                take(batch, slot + 1 - static_cast<Slot>(kBatch), kBatch);
+                take(slot + 1 - static_cast<Slot>(kBatch), kBatch);
                 filled = 0;
             }
         }
-        if (filled != 0) take(batch, scene.triangle_end() - static_cast<Slot>(filled), filled);
+        if (filled != 0) take(scene.triangle_end() - static_cast<Slot>(filled), filled);
     }
 
   private:
-    static HWY_INLINE Wide3 corner(const Batch& batch, std::size_t i) {
-        return {Wide::load(batch.corner[3 * i]), Wide::load(batch.corner[3 * i + 1]),
-                Wide::load(batch.corner[3 * i + 2])};
+    void enter(std::uint32_t object) {
+        const Object& shown = tables_.scene.scene().objects[object];
+        mesh_ = &std::get<TriangleMesh>(shown.shape);
+        word_ = surface_word(tables_, shown);
+        two_sided_ = !shown.solid;
+        offset_ = mesh_->normals.empty() ? 0 : tables_.smooth_offsets[object];
     }
 
-    void take(const Batch& batch, Slot first, std::size_t count) {
-        const Wide3 a = corner(batch, 0);
+    void put(Slot slot, std::uint32_t index, std::size_t lane) {
+        if (!tables_.triangle_words.empty()) tables_.triangle_words[slot] = word_;
+        copy(mesh_->positions, mesh_->triangles[index], batch_.corner, lane);
+        batch_.two_sided[lane] = two_sided_ ? 1 : 0;
+        batch_.smooth[lane] = nullptr;
+        if (mesh_->normals.empty()) return;
+        const auto& corners =
+            mesh_->normal_triangles.empty() ? mesh_->triangles : mesh_->normal_triangles;
+        copy(mesh_->normals, corners[index], batch_.normal, lane);
+        batch_.smooth[lane] = &tables_.smooth[slot - offset_];
+        batch_.any_smooth = true;
+    }
+    static void copy(const std::vector<Vector3>& from, const IndexTriple& corners,
+                     double (&to)[9][kBatch], std::size_t lane) {
+        for (std::size_t i = 0; i < 3; ++i)
+            for (int axis = 0; axis < 3; ++axis)
+                to[i * 3 + static_cast<std::size_t>(axis)][lane] = from[corners[i]][axis];
+    }
+    static HWY_INLINE Wide3 corner(const double (&values)[9][kBatch], std::size_t i) {
+        return {Wide::load(values[3 * i]), Wide::load(values[3 * i + 1]),
+                Wide::load(values[3 * i + 2])};
+    }
+
+    void take(Slot first, std::size_t count) {
+        const Wide3 a = corner(batch_.corner, 0);
         const Wide scale(scale_);
-        const Wide3 e1 = (corner(batch, 1) - a) * scale;
-        const Wide3 e2 = (corner(batch, 2) - a) * scale;
-        Wide3 n{e1.y * e2.z - e1.z * e2.y, e1.z * e2.x - e1.x * e2.z, e1.x * e2.y - e1.y * e2.x};
-        const Wide magnitudes = abs(e1.y * e2.z) + abs(e1.z * e2.y) + abs(e1.z * e2.x) +
-                                abs(e1.x * e2.z) + abs(e1.x * e2.y) + abs(e1.y * e2.x);
+        WideTriangles t;
+        t.from = (a - wide(tables_.scene.scene().camera.position)) * scale;
+        t.e1 = (corner(batch_.corner, 1) - a) * scale;
+        t.e2 = (corner(batch_.corner, 2) - a) * scale;
+        Wide3 n = cross(t.e1, t.e2);
+        const Wide magnitudes = abs(t.e1.y * t.e2.z) + abs(t.e1.z * t.e2.y) + abs(t.e1.z * t.e2.x) +
+                                abs(t.e1.x * t.e2.z) + abs(t.e1.x * t.e2.y) + abs(t.e1.y * t.e2.x);
         const Wide square = dot(n, n);
         auto known = (magnitudes < norm1(n) * Wide(kMagnitudes)) & (square > Wide(kSmallestSquare));
         n = n * (Wide(1.0) / sqrt(square));
         // The side that the camera is on, seen from every point of the triangle.
-        const Wide3 from_camera = (a - wide(tables_.scene.scene().camera.position)) * scale;
-        const Wide side = dot(n, from_camera);
-        const auto two_sided = Wide::load(batch.two_sided) > Wide(0.0);
-        const Wide reach = norm1(from_camera) + norm1(e1) + norm1(e2);
-        known = known & ((abs(side) > reach * Wide(4 * kTriangleNormalError)) | ~two_sided);
-        Wide sign = select((side > Wide(0.0)) & two_sided, Wide(-1.0), Wide(1.0));
-        sign = select(known, sign, Wide(std::numeric_limits<double>::quiet_NaN()));
-        n = n * sign;
-        store(n, a, first, count);
+        const Wide side = dot(n, t.from);
+        const Wide reach = norm1(t.from) + norm1(t.e1) + norm1(t.e2);
+        const auto sided = known & (abs(side) > reach * Wide(4 * kTriangleNormalError));
+        const auto two_sided = Wide::load(batch_.two_sided) > Wide(0.0);
+        const auto behind = side > Wide(0.0);
+        known = sided | (known & ~two_sided);
+        const Wide one(1.0);
+        const Wide unknown(std::numeric_limits<double>::quiet_NaN());
+        const Wide turned = select(behind & two_sided, -one, one);
+        store(n * select(known, turned, unknown), a, first, count);
+        if (!batch_.any_smooth) return;
+        const Wide sign = select(sided, select(behind, -turned, turned), unknown);
+        store_smooth(t, sign, count);
+        batch_.any_smooth = false;
     }
 
     HWY_INLINE void store(const Wide3& n, const Wide3& a, Slot first, std::size_t count) {
@@ -119,23 +130,35 @@ class TriangleFiller {
             const Wide value = light.directional
                                    ? dot(n, wide(-exact.direction)) * gain
                                    : dot(n, (wide(exact.location) - a) * Wide(scale_)) * gain;
-            put(value, light.facing.data() + first, 1, count);
+            spread(value, light.facing.data() + first, 1, count);
         }
         if (tables_.normals.empty()) return;
         float* normals = tables_.normals.data() + 4 * static_cast<std::size_t>(first);
-        put(n.x, normals, 4, count);
-        put(n.y, normals + 1, 4, count);
-        put(n.z, normals + 2, 4, count);
+        spread(n.x, normals, 4, count);
+        spread(n.y, normals + 1, 4, count);
+        spread(n.z, normals + 2, 4, count);
     }
-
-    static HWY_INLINE void put(const Wide& v, float* to, std::size_t stride, std::size_t count) {
+    static HWY_INLINE void spread(const Wide& v, float* to, std::size_t stride, std::size_t count) {
         double values[kBatch];
         v.store(values);
         for (std::size_t i = 0; i < count; ++i) to[i * stride] = static_cast<float>(values[i]);
     }
 
+    HWY_INLINE void store_smooth(const WideTriangles& t, const Wide& sign, std::size_t count) {
+        const SmoothFunctions functions(tables_.camera, t, corner(batch_.normal, 0),
+                                        corner(batch_.normal, 1), corner(batch_.normal, 2), sign);
+        for (std::size_t i = 0; i < count; ++i)
+            if (batch_.smooth[i] != nullptr) functions.store(i, *batch_.smooth[i]);
+    }
+
     ShadingTables& tables_;
     double scale_;
+    Batch batch_;
+    // The object that the next triangles belong to.
+    const TriangleMesh* mesh_ = nullptr;
+    SurfaceWord word_ = 0;
+    bool two_sided_ = false;
+    std::uint32_t offset_ = 0;
 };
 
 void fill_triangles_in(ShadingTables& tables) { TriangleFiller(tables).run(); }

@@ -137,7 +137,9 @@ class TileFinisher {
         Floats brightest;
         sum(scratch_.diffuse, first, material.emissive, material.diffuse, out, brightest);
         Floats most = mul_add(material.diffuse_most, brightest, material.emissive_most);
-        Floats error = material.diffuse_most * Floats::load(scratch_.diffuse_error + first);
+        Floats light = brightest;
+        Floats light_error = Floats::load(scratch_.diffuse_error + first);
+        Floats error = material.diffuse_most * light_error;
         if (specular) {
             const Floats base[3] = {out.channel[0], out.channel[1], out.channel[2]};
             Floats highlight;
@@ -146,9 +148,12 @@ class TileFinisher {
             error = mul_add(material.specular_most, Floats::load(scratch_.specular_error + first),
                             error);
         }
-        if (scratch_.colored[b] != 0)
-            error = mul_add(brightest + Floats(1.0F), Floats(tables_.bounds.color_error), error);
         out.error = mul_add(most, Floats(rounding), error * Floats(kSlack));
+        if (scratch_.colored[b] != 0)
+            out.error = mul_add(brightest + Floats(1.0F),
+                                Floats(tables_.bounds.color_error * kSlack), out.error);
+        else  // Without light the color is the table's, whose byte is certain.
+            out.error = select(light_error + light == Floats(0.0F), Floats(0.0F), out.error);
         return out;
     }
 

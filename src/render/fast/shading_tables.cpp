@@ -6,6 +6,7 @@
 #include <map>
 
 #include "nuvo/geometry/predicates.h"
+#include "nuvo/render/shading.h"
 #include "shading_facing.h"
 
 namespace nuvo {
@@ -19,7 +20,9 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kLightsWithFacing = 8;
 
 float rounded(double value) { return static_cast<float>(value); }
+// Not below `value` >= 0; of 0 it is 0, because subnormal operands slow every operation down.
 float rounded_up(double value) {
+    if (value == 0) return 0;
     return std::nextafter(static_cast<float>(value), std::numeric_limits<float>::infinity());
 }
 double largest(const Color& c) { return std::max(c.x, std::max(c.y, c.z)); }
@@ -34,10 +37,28 @@ void put(const Color& color, double factor, float (&out)[3]) {
     for (int c = 0; c < 3; ++c) out[c] = rounded(color[c] * factor);
 }
 
+// A color whose bytes are those of the exact one if nothing is added: where it is halfway between
+// two bytes it is moved up a little, as ties go; floats up to 255 are multiples of half of that.
+constexpr float kOffTie = 0x1p-15F;
+bool put_surely(const Color& color, float* out) {
+    bool moved = false;
+    const Rgb8 bytes = quantized(color);
+    for (int c = 0; c < 3; ++c) {
+        const int byte = c == 0 ? bytes.r : c == 1 ? bytes.g : bytes.b;
+        out[c] = rounded(color[c] * kFullByte);
+        const float off = out[c] - static_cast<float>(byte);
+        if (out[c] > 255 || std::fabs(off) < 0.5F - kOffTie) continue;
+        out[c] = static_cast<float>(byte) + (off < 0 ? kOffTie - 0.5F : 0.5F - kOffTie);
+        moved = true;
+    }
+    return moved;
+}
+
 ShadingMaterial shading_material(const Material& m) {
     ShadingMaterial out{};
-    put(m.emissive_color, kFullByte, out.emissive);
     out.emissive_most = rounded_up(largest(m.emissive_color) * kFullByte);
+    // The error counts at least 3 units of emissive_most.
+    if (put_surely(m.emissive_color, out.emissive)) out.emissive_most += kOffTie / (3 * kFloatUnit);
     if (!m.lit) return out;
     put(m.diffuse_color, kFullByte, out.diffuse);
     put(m.specular_color, kFullByte, out.specular);
@@ -85,6 +106,23 @@ void add_materials(ShadingTables& tables) {
         tables.common_word = tables.material_words[0];
 }
 
+void place_smooth_triangles(ShadingTables& tables) {
+    const FastScene& scene = tables.scene;
+    tables.smooth_offsets.resize(scene.scene().objects.size());
+    std::uint32_t object = ~0U;
+    bool smooth = false;
+    std::uint32_t count = 0;
+    for (Slot slot = 0; slot < scene.triangle_end(); ++slot) {
+        if (scene.source(slot).object != object) {
+            object = scene.source(slot).object;
+            smooth = !std::get<TriangleMesh>(scene.scene().objects[object].shape).normals.empty();
+            tables.smooth_offsets[object] = slot - count;
+        }
+        if (smooth) ++count;
+    }
+    tables.smooth.resize(count);
+}
+
 // Flags that only meshes have.
 void add_mesh_flags(ShadingTables& tables) {
     if (tables.scene.triangle_end() == 0) return;
@@ -101,6 +139,7 @@ void add_mesh_flags(ShadingTables& tables) {
         }
     }
     if ((tables.any_flags & (kSmoothFlag | kColoredFlag)) != 0) tables.uniform = false;
+    if ((tables.any_flags & kSmoothFlag) != 0) place_smooth_triangles(tables);
     // Weights in double, then one rounding of each sum.
     tables.bounds.color_error = rounded_up(2 * kFloatUnit * most * kFullByte);
 }
@@ -266,9 +305,7 @@ void add_background(ShadingTables& tables) {
         for (const Color& c : *colors) tables.sound = tables.sound && is_sound(c);
     if (exact.ground_color.empty() && exact.sky_color.size() <= 1) {
         const Color color = exact.sky_color.empty() ? Color{} : exact.sky_color[0];
-        for (std::size_t c = 0; c < 3; ++c)
-            out.middle[c] = rounded(color[static_cast<int>(c)] * kFullByte);
-        out.error = rounded_up(kSlack * kFloatUnit * kFullByte * largest(color));
+        put_surely(color, out.middle.data());
     } else if (exact.sky_color.size() == 1 && exact.ground_color.size() == 1 &&
                exact.sky_angle.empty() && exact.ground_angle.empty()) {
         out.kind = ShadingBackground::Kind::kBlend;
@@ -323,7 +360,8 @@ ShadingTables::ShadingTables(const FastScene& scene_in, const CameraRays& camera
 std::size_t ShadingTables::memory_bytes() const {
     std::size_t bytes = sizeof(*this) + materials.size() * sizeof(ShadingMaterial) +
                         (material_words.size() + triangle_words.size()) * sizeof(SurfaceWord) +
-                        normals.size() * sizeof(float);
+                        normals.size() * sizeof(float) + smooth.size() * sizeof(SmoothTriangle) +
+                        smooth_offsets.size() * sizeof(std::uint32_t);
     for (const ShadingLight& light : lights)
         bytes += sizeof(light) + light.facing.size() * sizeof(float);
     return bytes;

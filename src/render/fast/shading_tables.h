@@ -25,10 +25,10 @@ inline constexpr double kTriangleNormalError = 0x1p-34;
 /// A material, its colors times 255.
 struct ShadingMaterial {
     float diffuse[3];
-    float emissive[3];
+    float emissive[3];  ///< alone it rounds to the right byte, surely
     float specular[3];
-    float diffuse_most;  ///< the largest channel
-    float emissive_most;
+    float diffuse_most;   ///< the largest channel
+    float emissive_most;  ///< its units also cover what `emissive` is off to be sure
     float specular_most;
     float ambient;
     float exponent;  ///< of the specular lobe
@@ -72,6 +72,23 @@ struct ShadingLight {
     float facing_error = 0;  ///< absolute, beside one rounding
 };
 
+/// The interpolated normal of a triangle as a function of the pixel, but for its length: in the
+/// pixel coordinates X, Y of CameraRays it is along at + right * (X - x) + down * (Y - y), because
+/// the weights of its corners are quotients of affine functions with one denominator. Turned as
+/// shading_normal() turns it; NaN where double is not enough to know. x, y is near the triangle.
+struct alignas(64) SmoothTriangle {
+    float at[3];
+    float right[3];
+    float down[3];
+    float x;
+    float y;
+    float error;  ///< of the sum: this + error_right |X - x| + error_down |Y - y|
+    float error_right;
+    float error_down;
+    float padding[2];
+};
+static_assert(sizeof(SmoothTriangle) == 64);
+
 /// A gradient between two angles from the pole, times 255: color + step * (angle - lower).
 struct BackgroundBand {
     float upper = 0;
@@ -102,7 +119,7 @@ struct ShadingBounds {
     float direction_relative = 0;  ///< the same in units of |d|
     float point_constant = 0;      ///< |P in float - P| <= this + t (point_by_t + ...)
     float point_by_t = 0;
-    float curved_point_error = 0;  ///< of points that are computed from the primitive
+    float curved_point_error = 0;  ///< of a sphere's points, without its normal's part
     float color_error = 0;         ///< of interpolated colors, times 255
 };
 
@@ -123,7 +140,9 @@ struct ShadingTables {
     bool any_ambient = false;                 ///< of a light and a material
     bool sound = true;  ///< false: a number is out of range, every pixel is for the referee
     std::vector<ShadingLight> lights;
-    std::vector<float> normals;  ///< x, y, z, 0 by slot; empty: never asked for
+    std::vector<float> normals;                 ///< x, y, z, 0 by slot; empty: never asked for
+    std::vector<SmoothTriangle> smooth;         ///< of the meshes with interpolated normals
+    std::vector<std::uint32_t> smooth_offsets;  ///< by object: place of a slot is slot - offset
     ShadingBackground background;
     ShadingBounds bounds;
     /// Of a block's pixels to its first, by axis: steps of the ray's direction.

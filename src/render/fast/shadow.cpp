@@ -9,6 +9,8 @@
 #include <hwy/foreach_target.h>
 
 #include "fast/beam.h"
+#include "fast/shadow_beam.h"
+#include "fast/shadow_boxes.h"
 #include "fast/shadow_clusters.h"
 #include "fast/shadow_lanes.h"
 
@@ -28,7 +30,7 @@ class ShadowTracer {
           table_(job.tables.table(light)),
           clusters_(tile, wanted),
           lit_(lit),
-          rounds_(job.tables.has_rounds()) {
+          has_rounds_(job.tables.has_rounds()) {
         const float error = clusters_.point_error() * (1 + 4 * kRoundoff);
         plane_error_ = (error + job.tables.plane_error()) * (1 + 4 * kRoundoff);
         round_error_ = (2 * error + job.tables.round_error()) * (1 + 4 * kRoundoff);
@@ -44,188 +46,209 @@ class ShadowTracer {
 
   private:
     static constexpr float kRoundoff = 0x1p-24F;
+    // Batches grow along the way: what blocks is often close.
+    static constexpr std::uint32_t kFirstBatch = 4;
+
+    struct Batch {
+        static constexpr std::uint32_t kSize = 32;
+        std::uint32_t count = 0;
+        Slot slot[kSize];
+
+        HWY_INLINE void add(Slot item, std::uint32_t fresh) {
+            slot[count] = item;
+            count += fresh;
+        }
+        bool full() const { return count == kSize; }
+    };
 
     // Copies a cluster's lanes into packets, the last filled up with its own last lane.
     HWY_INLINE void load(int first, int count) {
         first_ = first;
         packets_ = (count + 15) / 16;
         alive_ = (1U << packets_) - 1;
+        by_fours_ = packets_ <= 4;
+        group_shift_ = by_fours_ ? 2 : 0;
+        group_mask_ = by_fours_ ? 0xf : 1;
+        groups_ = by_fours_ ? 0xffff >> (16 - 4 * packets_) : alive_;
         for (int p = 0; p < packets_; ++p) {
             const int here = std::min(16, count - 16 * p);
             waiting_[p] = (1U << here) - 1;
             points_[p] = clusters_.points(first + 16 * p, here);
         }
         if (packets_ > 1) load_boxes();
-        if (rounds_)
+        if (has_rounds_)
             for (int p = 0; p < packets_; ++p) ways_[p] = Ways(table_.light, points_[p]);
     }
 
-    // The middles of the packets' boxes and how far their points are from these.
+    // A small cluster is tested by fours of points first, a larger one by packets.
     HWY_INLINE void load_boxes() {
-        alignas(64) float center[3][16] = {};
-        alignas(64) float half[16] = {};
-        alignas(64) float radius[16] = {};
-        for (int p = 0; p < packets_; ++p) {
-            const PointBox box = PointClusters::box(points_[p]);
-            float square = 0;
-            for (int axis = 0; axis < 3; ++axis) {
-                // One rounding of the middle, one of the difference.
-                const float h = 0.5F * box.extent(axis) * (1 + 4 * kRoundoff) + 2 * kRoundoff;
-                center[axis][p] = 0.5F * (box.low[axis] + box.high[axis]);
-                half[p] = std::max(half[p], h);
-                square += h * h;
-            }
-            radius[p] = square;
-        }
-        centers_ = {Floats::load(center[0]), Floats::load(center[1]), Floats::load(center[2])};
-        box_error_ = Floats::load(half) + Floats(plane_error_);
-        if (!rounds_) return;
+        const GroupBoxes boxes(points_, packets_, by_fours_);
+        centers_ = boxes.center;
+        box_error_ = boxes.half + Floats(plane_error_);
+        if (!has_rounds_) return;
         center_ways_ = Ways(table_.light, centers_);
-        round_box_error_ =
-            sqrt(Floats::load(radius)) * Floats(1 + 8 * kRoundoff) + Floats(round_error_);
+        round_box_error_ = boxes.radius + Floats(round_error_);
     }
 
     void trace_beam(const PointBox& box) {
         job_.mailbox.start();
-        const Slot triangle_end = scene_.triangle_end();
-        walk_beam(
-            scene_.octree(), beam_to(box), [](float) { return false; },
-            [&](const std::uint32_t* items, std::uint32_t count, float) HWY_ATTR {
-                for (std::uint32_t i = 0; i < count; ++i) {
-                    const Slot slot = items[i];
-                    if (job_.mailbox.seen(slot)) continue;
-                    if (slot < triangle_end)
-                        test_triangle(slot);
-                    else
-                        test_round(slot);
-                    if (alive_ == 0) return true;
-                }
-                return false;
-            });
+        triangles_.count = 0;
+        rounds_.count = 0;
+        enough_ = kFirstBatch;
+        const BeamBox beam =
+            beam_to_light(table_.light, box.low, box.high, plane_error_ + 8 * kRoundoff);
+        const bool done = walk_beam(
+            scene_.octree(), beam, [](float) { return false; },
+            [&](const std::uint32_t* items, std::uint32_t count, float)
+                HWY_ATTR { return take(items, count); });
+        if (!done) test_taken();
     }
 
-    // From a light nearby to the points, else from the points towards the light.
-    BeamBox beam_to(const PointBox& box) const {
-        constexpr double kNear = 0x1p-6;
-        const LightPoint& light = table_.light;
-        const float slack = plane_error_ + 8 * kRoundoff;
-        BeamBox beam;
-        const bool from_light = light.weight >= kNear;
-        for (int axis = 0; axis < 3; ++axis) {
-            const float low = box.low[axis] - slack;
-            const float high = box.high[axis] + slack;
-            const auto toward = static_cast<float>(light.toward[axis]);
-            if (from_light) {
-                const auto from = static_cast<float>(light.toward[axis] / light.weight);
-                const float rounding = 4 * kRoundoff * (std::fabs(from) + 2);
-                beam.origin_low[axis] = from - rounding;
-                beam.origin_high[axis] = from + rounding;
-                beam.direction_low[axis] = low - from - rounding;
-                beam.direction_high[axis] = high - from + rounding;
-            } else {
-                const auto weight = static_cast<float>(light.weight);
-                const float rounding = light.weight == 0 && toward == 0 ? 0x1p-100F : 4 * kRoundoff;
-                beam.origin_low[axis] = low;
-                beam.origin_high[axis] = high;
-                beam.direction_low[axis] = toward - weight * high - rounding;
-                beam.direction_high[axis] = toward - weight * low + rounding;
+    // Tests are put off until there are some: what comes out of one cannot be foreseen, but they
+    // can run at the same time. Returns whether nothing waits any more.
+    HWY_INLINE bool take(const std::uint32_t* items, std::uint32_t count) {
+        const Slot triangle_end = scene_.triangle_end();
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const Slot slot = items[i];
+            const std::uint32_t fresh = job_.mailbox.seen(slot) ? 0 : 1;
+            if (slot < triangle_end)
+                triangles_.add(slot, fresh);
+            else
+                rounds_.add(slot, fresh);
+            if (triangles_.full() || rounds_.full()) {
+                test_taken();
+                if (alive_ == 0) return true;
             }
         }
-        constexpr double kEndless = 0x1p60;
-        beam.t_end =
-            from_light ? 1.0F : static_cast<float>(std::min(kEndless, 1.0001 / light.weight));
-        beam.far_first = from_light;
-        beam.keep_off_zero();
-        return beam;
+        if (triangles_.count + rounds_.count < enough_) return false;
+        enough_ = std::min(2 * enough_, Batch::kSize);
+        test_taken();
+        return alive_ == 0;
+    }
+    HWY_INLINE void test_taken() {
+        if (triangles_.count > 0) test_triangles();
+        if (rounds_.count > 0) test_rounds();
+        update();
     }
 
-    HWY_INLINE void test_triangle(Slot slot) {
-        const ShadowPlanes& planes = table_.planes[slot];
-        std::uint32_t packets = alive_;
+    // The items that may hide a point of some group, with these groups.
+    struct Near {
+        std::uint32_t count = 0;
+        Slot slot[Batch::kSize + 1];
+        std::uint32_t groups[Batch::kSize + 1];
+
+        HWY_INLINE void add(Slot item, std::uint32_t of) {
+            slot[count] = item;
+            groups[count] = of;
+            count += of != 0 ? 1 : 0;
+        }
+    };
+
+    void test_triangles() {
+        Near near;
         if (packets_ > 1) {
-            const Floats depth = hidden(planes, centers_);
-            packets &= ~(depth < -box_error_).bits();
-            const std::uint32_t sure = packets & (depth > box_error_).bits();
-            block_whole(sure);
-            packets ^= sure;
+            std::uint32_t whole = 0;
+            for (std::uint32_t i = 0; i < triangles_.count; ++i) {
+                const Floats depth = hidden(table_.planes[triangles_.slot[i]], centers_);
+                near.add(triangles_.slot[i], groups_ & ~(depth < -box_error_).bits());
+                whole |= (depth > box_error_).bits();
+            }
+            block_groups(whole & groups_);
+        } else {
+            for (std::uint32_t i = 0; i < triangles_.count; ++i) near.add(triangles_.slot[i], 1);
         }
-        for (; packets != 0; packets &= packets - 1) {
-            const int p = std::countr_zero(packets);
-            const Floats depth = hidden(planes, points_[p]);
-            const std::uint32_t perhaps = waiting_[p] & ~(depth < Floats(-plane_error_)).bits();
-            if (perhaps == 0) continue;
-            const std::uint32_t sure = perhaps & (depth > Floats(plane_error_)).bits();
-            block(p, sure);
-            if (perhaps != sure) put_aside(slot, p, perhaps ^ sure, depth > Floats(0.0F));
+        for (std::uint32_t i = 0; i < near.count; ++i) {
+            const ShadowPlanes& planes = table_.planes[near.slot[i]];
+            for (std::uint32_t at = near.groups[i]; at != 0;) {
+                const int p = next_packet(at);
+                const Floats depth = hidden(planes, points_[p]);
+                const std::uint32_t perhaps = waiting_[p] & ~(depth < Floats(-plane_error_)).bits();
+                const std::uint32_t sure = perhaps & (depth > Floats(plane_error_)).bits();
+                waiting_[p] &= ~sure;
+                if (perhaps != sure)
+                    leave_triangle(near.slot[i], p, perhaps ^ sure, depth > Floats(0.0F));
+            }
         }
+        triangles_.count = 0;
+    }
+    // The packet of the first group in `groups`, all of whose groups are taken out.
+    HWY_INLINE int next_packet(std::uint32_t& groups) const {
+        const int p = std::countr_zero(groups) >> group_shift_;
+        groups &= ~(group_mask_ << (p << group_shift_));
+        return p;
     }
 
-    HWY_INLINE void test_round(Slot slot) {
-        const RoundShape& shape = job_.tables.round(slot);
-        const LightSide side = table_.round_sides.empty()
-                                   ? LightSide::kOutside
-                                   : table_.round_sides[slot - scene_.triangle_end()];
-        const bool sphere = slot < scene_.sphere_end();
-        std::uint32_t packets = alive_;
+    void test_rounds() {
+        Near near;
         if (packets_ > 1) {
-            const RoundTest test(shape, centers_, center_ways_, round_box_error_);
-            packets &= ~free(test, side, sphere);
-            if (packets == 0) return;
-            const std::uint32_t sure = packets & blocked(test, side, sphere);
-            block_whole(sure);
-            packets ^= sure;
+            std::uint32_t whole = 0;
+            for (std::uint32_t i = 0; i < rounds_.count; ++i) {
+                const RoundItem item(job_.tables, table_, rounds_.slot[i]);
+                const RoundTest test(item.shape, centers_, center_ways_, round_box_error_);
+                near.add(rounds_.slot[i], groups_ & ~test.free(item));
+                whole |= test.blocked(item);
+            }
+            block_groups(whole & groups_);
+        } else {
+            for (std::uint32_t i = 0; i < rounds_.count; ++i) near.add(rounds_.slot[i], 1);
         }
-        for (; packets != 0; packets &= packets - 1)
-            test_round(slot, shape, side, sphere, std::countr_zero(packets));
+        for (std::uint32_t i = 0; i < near.count; ++i) {
+            const RoundItem item(job_.tables, table_, near.slot[i]);
+            for (std::uint32_t at = near.groups[i]; at != 0;) {
+                const int p = next_packet(at);
+                const RoundTest test(item.shape, points_[p], ways_[p], Floats(round_error_));
+                const std::uint32_t perhaps = waiting_[p] & ~test.free(item);
+                const std::uint32_t sure = perhaps & test.blocked(item);
+                waiting_[p] &= ~sure;
+                if (perhaps != sure) leave_round(near.slot[i], p, perhaps ^ sure, item, test);
+            }
+        }
+        rounds_.count = 0;
     }
 
-    HWY_INLINE void test_round(Slot slot, const RoundShape& shape, LightSide side, bool sphere,
-                               int p) {
-        const RoundTest test(shape, points_[p], ways_[p], Floats(round_error_));
-        const std::uint32_t own = clusters_.of_slot(first_ + 16 * p, slot) & waiting_[p];
-        std::uint32_t perhaps = waiting_[p] & ~own & ~free(test, side, sphere);
-        std::uint32_t sure = perhaps & blocked(test, side, sphere);
-        if (own != 0) {
-            // The way from the sphere itself enters it iff it points inwards.
+    void block_groups(std::uint32_t groups) {
+        groups_ &= ~groups;
+        for (; groups != 0; groups &= groups - 1) {
+            const int group = std::countr_zero(groups);
+            if (by_fours_)
+                waiting_[group / 4] &= ~(0xfU << (group % 4 * 4));
+            else
+                waiting_[group] = 0;
+        }
+    }
+    // Finds out what still waits.
+    HWY_INLINE void update() {
+        alive_ = 0;
+        for (int p = 0; p < packets_; ++p) alive_ |= waiting_[p] != 0 ? 1U << p : 0;
+        if (!by_fours_) groups_ &= alive_;
+    }
+    // A triangle does not hide its own points.
+    HWY_NOINLINE void leave_triangle(Slot slot, int p, std::uint32_t lanes,
+                                     const RayMask& rounded) {
+        lanes &= ~clusters_.of_slot(first_ + 16 * p, slot);
+        put_aside(slot, p, lanes, rounded.bits());
+    }
+    // Nor does a sphere where the way to the light leads outwards. Its own points touch it, so they
+    // are among those that no test of the foot decides.
+    HWY_NOINLINE void leave_round(Slot slot, int p, std::uint32_t lanes, const RoundItem& item,
+                                  const RoundTest& test) {
+        const std::uint32_t own = lanes & clusters_.of_slot(first_ + 16 * p, slot);
+        std::uint32_t rounded = without(test.crosses, test.behind | test.beyond).bits() & ~own;
+        if (own != 0 && item.sphere) {
+            // Off by the way's own error at one end, at most 1 away, and by the point's.
             const Floats margin =
                 mul_add(ways_[p].inverse, Floats(round_error_), Floats(round_error_));
-            if (!sphere)
-                perhaps |= own;
-            else if (side != LightSide::kInside)
-                perhaps |= own & ~(test.along < -margin).bits();
-            if (sphere && side == LightSide::kOutside) sure |= own & (test.along > margin).bits();
+            const std::uint32_t outwards = (test.along < -margin).bits();
+            const std::uint32_t inwards = (test.along > margin).bits();
+            if (item.side == LightSide::kOutside) waiting_[p] &= ~(own & inwards);
+            lanes &= ~(own & (item.side == LightSide::kInside ? own : outwards));
+            rounded |= own & (test.along > Floats(0.0F)).bits();
         }
-        if (perhaps == 0) return;
-        block(p, sure);
-        if (perhaps != sure)
-            put_aside(slot, p, perhaps & ~sure, without(test.crosses, test.behind | test.beyond));
+        put_aside(slot, p, lanes & waiting_[p], rounded);
     }
-
-    static HWY_INLINE std::uint32_t free(const RoundTest& test, LightSide side, bool sphere) {
-        RayMask mask = test.passes | (test.outside & test.behind);
-        if (side == LightSide::kOutside) mask = mask | (test.outside & test.beyond);
-        if (side == LightSide::kInside && sphere) mask = mask | test.inside;
-        return mask.bits();
-    }
-    static HWY_INLINE std::uint32_t blocked(const RoundTest& test, LightSide side, bool sphere) {
-        if (!sphere || side == LightSide::kUnknown) return 0;
-        if (side == LightSide::kInside) return test.outside.bits();
-        const RayMask through = without(test.crosses & test.outside, test.behind | test.beyond);
-        return (through | test.inside).bits();
-    }
-
-    HWY_INLINE void block_whole(std::uint32_t packets) {
-        alive_ &= ~packets;
-        for (; packets != 0; packets &= packets - 1) waiting_[std::countr_zero(packets)] = 0;
-    }
-    HWY_INLINE void block(int p, std::uint32_t lanes) {
-        waiting_[p] &= ~lanes;
-        if (waiting_[p] == 0) alive_ &= ~(1U << p);
-    }
-    HWY_NOINLINE void put_aside(Slot slot, int p, std::uint32_t lanes, const RayMask& rounded) {
-        if (slot < scene_.triangle_end()) lanes &= ~clusters_.of_slot(first_ + 16 * p, slot);
+    HWY_INLINE void put_aside(Slot slot, int p, std::uint32_t lanes, std::uint32_t rounded) {
         if (!job_.redo_exactly) {
-            block(p, lanes & rounded.bits());
+            waiting_[p] &= ~(lanes & rounded);
             return;
         }
         for (; lanes != 0; lanes &= lanes - 1)
@@ -234,8 +257,14 @@ class ShadowTracer {
 
     // The lanes that are still waiting are lit.
     HWY_INLINE void finish(int p) {
+        const int first = first_ + 16 * p;
+        const std::uint32_t block = clusters_.lane(first) / 16;
+        if (clusters_.is_block(first)) {
+            lit_[block] = static_cast<std::uint16_t>(lit_[block] | waiting_[p]);
+            return;
+        }
         for (std::uint32_t lanes = waiting_[p]; lanes != 0; lanes &= lanes - 1) {
-            const std::uint32_t lane = clusters_.lane(first_ + 16 * p + std::countr_zero(lanes));
+            const std::uint32_t lane = clusters_.lane(first + std::countr_zero(lanes));
             lit_[lane / 16] = static_cast<std::uint16_t>(lit_[lane / 16] | 1U << lane % 16);
         }
     }
@@ -245,14 +274,18 @@ class ShadowTracer {
     const ShadowTable& table_;
     PointClusters clusters_;
     TileMask& lit_;
-    bool rounds_;
+    bool has_rounds_;
     float plane_error_;
     float round_error_;
 
     // The cluster that is being traced.
     int first_ = 0;
     int packets_ = 0;
+    bool by_fours_ = false;
+    int group_shift_ = 0;
+    std::uint32_t group_mask_ = 1;
     std::uint32_t alive_ = 0;    // packets with lanes that wait
+    std::uint32_t groups_ = 0;   // groups of these
     std::uint32_t waiting_[16];  // lanes that nothing has blocked yet
     Points points_[16];
     Ways ways_[16];
@@ -260,6 +293,9 @@ class ShadowTracer {
     Ways center_ways_;
     Floats box_error_;
     Floats round_box_error_;
+    Batch triangles_;  // waiting for their tests
+    Batch rounds_;
+    std::uint32_t enough_ = kFirstBatch;
 };
 
 void trace_shadows(ShadowJob& job, const Tile& tile, std::size_t light, const TileMask& wanted,

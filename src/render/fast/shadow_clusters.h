@@ -89,6 +89,12 @@ class PointClusters {
     HWY_INLINE std::uint32_t of_slot(int first, Slot slot) const {
         return (Ints::load(slot_ + first) == Ints(static_cast<std::int32_t>(slot))).bits();
     }
+    /// Whether 16 points from `first` on are those of a whole block in order.
+    bool is_block(int first) const {
+        return first + 16 <= count_ && lane_[first] % 16 == 0 &&
+               (Ints::load(lane_ + first) == Ints::load(kLaneNumbers.lane + lane_[first])).bits() ==
+                   0xffff;
+    }
     std::uint32_t lane(int i) const { return static_cast<std::uint32_t>(lane_[i]); }
 
     static HWY_INLINE PointBox box(const Points& p) {

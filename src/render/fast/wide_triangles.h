@@ -1,0 +1,128 @@
+// No #pragma once: compiled once for each instruction set (see hwy/foreach_target.h).
+#if defined(NUVO_RENDER_FAST_WIDE_TRIANGLES_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef NUVO_RENDER_FAST_WIDE_TRIANGLES_H_
+#undef NUVO_RENDER_FAST_WIDE_TRIANGLES_H_
+#else
+#define NUVO_RENDER_FAST_WIDE_TRIANGLES_H_
+#endif
+
+#include <cstddef>
+
+#include "fast/lanes.h"
+#include "fast/shading_tables.h"
+
+// Vectors of 8 doubles, one for each of 8 triangles, and the functions of a smooth triangle.
+
+HWY_BEFORE_NAMESPACE();
+namespace nuvo::HWY_NAMESPACE {
+
+inline constexpr std::size_t kBatch = 8;
+using Wide = Lanes<double, kBatch>;
+
+struct Wide3 {
+    Wide x, y, z;
+};
+HWY_INLINE Wide3 wide(const Vector3& v) { return {Wide(v.x), Wide(v.y), Wide(v.z)}; }
+HWY_INLINE Wide3 operator+(const Wide3& a, const Wide3& b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+HWY_INLINE Wide3 operator-(const Wide3& a, const Wide3& b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+HWY_INLINE Wide3 operator*(const Wide3& a, const Wide& s) { return {a.x * s, a.y * s, a.z * s}; }
+HWY_INLINE Wide3 cross(const Wide3& a, const Wide3& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+HWY_INLINE Wide dot(const Wide3& a, const Wide3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+HWY_INLINE Wide norm1(const Wide3& a) { return abs(a.x) + abs(a.y) + abs(a.z); }
+
+/// Triangles in the local frame.
+struct WideTriangles {
+    Wide3 from;  ///< from the camera to corner a
+    Wide3 e1;    ///< a to b
+    Wide3 e2;    ///< a to c
+};
+
+/// Writes the records of 8 triangles with the normals n0, n1, n2 at the corners; `sign` is -1 where
+/// the denominator S is negative or the normal turns, 1 where not or both, NaN where unknown.
+/// With S = d.(e2 x e1), V = d.(from x e2), W = d.(e1 x from) as in surface_point(), the normal is
+/// along n0 S + (n1 - n0) V + (n2 - n0) W. Below 2^-49 of its magnitudes a triple product is noise.
+class SmoothFunctions {
+  public:
+    HWY_INLINE SmoothFunctions(const CameraRays& camera, const WideTriangles& t, const Wide3& n0,
+                               const Wide3& n1, const Wide3& n2, const Wide& sign) {
+        const Wide largest = max(largest_of(n0), max(largest_of(n1), largest_of(n2)));
+        const Wide3 s = cross(t.e2, t.e1);
+        const Wide3 v = cross(t.from, t.e2);
+        const Wide3 w = cross(t.e1, t.from);
+        const auto along = [&](const Vector3& axis) HWY_ATTR {
+            const Wide3 d = wide(axis);
+            return n0 * dot(s, d) + (n1 - n0) * dot(v, d) + (n2 - n0) * dot(w, d);
+        };
+        const Wide3 right = along(camera.right);
+        const Wide3 down = along(camera.down);
+        // Near the centroid: precision is best there.
+        const Wide3 center = t.from + (t.e1 + t.e2) * Wide(1.0 / 3);
+        const Wide depth = dot(center, wide(camera.forward));
+        const Wide x = pixel(center, camera.right, depth, camera.resolution.width);
+        const Wide y = pixel(center, camera.down, depth, camera.resolution.height);
+        const Wide3 at = along(camera.forward) + right * x + down * y;
+        const Wide scale = sign / largest_of(at);
+        const Wide edges = norm1(t.e1) + norm1(t.e2);
+        const double longest = nuvo::length(camera.forward) +
+                               camera.resolution.width * nuvo::length(camera.right) +
+                               camera.resolution.height * nuvo::length(camera.down);
+        const Wide noise = (norm1(t.from) + edges) * edges * largest * Wide(8 * 0x1p-49 * longest);
+        put(at * scale, 0);
+        put(right * scale, 3);
+        put(down * scale, 6);
+        x.store(values_[9]);
+        y.store(values_[10]);
+        // Of each sum in float: the coefficients' rounding, and 3 of the two operations.
+        const Wide roundings = abs(scale) * Wide(4.1 * static_cast<double>(kFloatUnit));
+        mul_add(roundings, size_of(at), abs(scale) * noise).store(values_[11]);
+        (roundings * size_of(right)).store(values_[12]);
+        (roundings * size_of(down)).store(values_[13]);
+    }
+
+    void store(std::size_t i, SmoothTriangle& out) const {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            out.at[axis] = value(axis, i);
+            out.right[axis] = value(3 + axis, i);
+            out.down[axis] = value(6 + axis, i);
+        }
+        out.x = value(9, i);
+        out.y = value(10, i);
+        out.error = value(11, i);
+        out.error_right = value(12, i);
+        out.error_down = value(13, i);
+    }
+
+  private:
+    static HWY_INLINE Wide largest_of(const Wide3& v) {
+        return max(abs(v.x), max(abs(v.y), abs(v.z)));
+    }
+    // The coordinate at which the point is seen, an integer; at most the picture's size.
+    static HWY_INLINE Wide pixel(const Wide3& point, const Vector3& axis, const Wide& depth,
+                                 int size) {
+        const Wide limit(size);
+        const Wide seen = dot(point, wide(axis)) / (depth * Wide(nuvo::dot(axis, axis)));
+        return floor(min(max(seen, -limit), limit));
+    }
+    static HWY_INLINE Wide size_of(const Wide3& v) { return sqrt(dot(v, v)); }
+    HWY_INLINE void put(const Wide3& v, std::size_t row) {
+        v.x.store(values_[row]);
+        v.y.store(values_[row + 1]);
+        v.z.store(values_[row + 2]);
+    }
+    float value(std::size_t row, std::size_t i) const {
+        return static_cast<float>(values_[row][i]);
+    }
+
+    double values_[14][kBatch];
+};
+
+}  // namespace nuvo::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // NUVO_RENDER_FAST_WIDE_TRIANGLES_H_
