@@ -325,7 +325,7 @@ TEST(Flags, StandardValuesInTheTableAreTheDefaultsOfTheParser) {
         if (flag.standard.empty() || flag.standard == "by profile") continue;
         std::vector<std::string> arguments{"--" + flag.name + "=" + flag.standard};
         if (flag.name == "midpoint") arguments.push_back("-compare");
-        if (flag.name == "threads") arguments.push_back("--profile=fast");
+        if (flag.name == "threads") arguments.push_back("--tracer=tiles");
         const Options given = parse(arguments);
         EXPECT_EQ(given.file, untouched.file) << flag.name;
         EXPECT_EQ(given.repetitions, untouched.repetitions) << flag.name;

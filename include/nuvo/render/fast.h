@@ -37,7 +37,7 @@ struct FastMemory {
     std::size_t tables = 0;     ///< per camera and light, made anew for each picture
 };
 
-/// Processor time by stage, in seconds, summed over the threads.
+/// Time by stage on the clock of the wall, in seconds, summed over the threads.
 struct FastTimes {
     double tables = 0;
     double primary = 0;
