@@ -30,7 +30,7 @@ class ShadowTracer {
           table_(job.tables.table(light)),
           clusters_(tile, wanted),
           lit_(lit),
-          rounds_(job.tables.has_rounds()) {
+          has_rounds_(job.tables.has_rounds()) {
         const float error = clusters_.point_error() * (1 + 4 * kRoundoff);
         plane_error_ = (error + job.tables.plane_error()) * (1 + 4 * kRoundoff);
         round_error_ = (2 * error + job.tables.round_error()) * (1 + 4 * kRoundoff);
@@ -76,7 +76,7 @@ class ShadowTracer {
             points_[p] = clusters_.points(first + 16 * p, here);
         }
         if (packets_ > 1) load_boxes();
-        if (rounds_)
+        if (has_rounds_)
             for (int p = 0; p < packets_; ++p) ways_[p] = Ways(table_.light, points_[p]);
     }
 
@@ -85,7 +85,7 @@ class ShadowTracer {
         const GroupBoxes boxes(points_, packets_, by_fours_);
         centers_ = boxes.center;
         box_error_ = boxes.half + Floats(plane_error_);
-        if (!rounds_) return;
+        if (!has_rounds_) return;
         center_ways_ = Ways(table_.light, centers_);
         round_box_error_ = boxes.radius + Floats(round_error_);
     }
@@ -93,7 +93,7 @@ class ShadowTracer {
     void trace_beam(const PointBox& box) {
         job_.mailbox.start();
         triangles_.count = 0;
-        spheres_.count = 0;
+        rounds_.count = 0;
         enough_ = kFirstBatch;
         const BeamBox beam =
             beam_to_light(table_.light, box.low, box.high, plane_error_ + 8 * kRoundoff);
@@ -114,112 +114,96 @@ class ShadowTracer {
             if (slot < triangle_end)
                 triangles_.add(slot, fresh);
             else
-                spheres_.add(slot, fresh);
-            if (triangles_.full() || spheres_.full()) {
+                rounds_.add(slot, fresh);
+            if (triangles_.full() || rounds_.full()) {
                 test_taken();
                 if (alive_ == 0) return true;
             }
         }
-        if (triangles_.count + spheres_.count < enough_) return false;
+        if (triangles_.count + rounds_.count < enough_) return false;
         enough_ = std::min(2 * enough_, Batch::kSize);
         test_taken();
         return alive_ == 0;
     }
     HWY_INLINE void test_taken() {
         if (triangles_.count > 0) test_triangles();
-        if (spheres_.count > 0) {
-            for (std::uint32_t i = 0; i < spheres_.count; ++i) test_round(spheres_.slot[i]);
-            spheres_.count = 0;
-        }
+        if (rounds_.count > 0) test_rounds();
         update();
     }
 
+    // The items that may hide a point of some group, with these groups.
+    struct Near {
+        std::uint32_t count = 0;
+        Slot slot[Batch::kSize + 1];
+        std::uint32_t groups[Batch::kSize + 1];
+
+        HWY_INLINE void add(Slot item, std::uint32_t of) {
+            slot[count] = item;
+            groups[count] = of;
+            count += of != 0 ? 1 : 0;
+        }
+    };
+
     void test_triangles() {
-        Batch near;
-        near.count = triangles_.count;
-        std::uint32_t groups[Batch::kSize];
+        Near near;
         if (packets_ > 1) {
-            near.count = 0;
             std::uint32_t whole = 0;
             for (std::uint32_t i = 0; i < triangles_.count; ++i) {
-                const Slot slot = triangles_.slot[i];
-                const Floats depth = hidden(table_.planes[slot], centers_);
-                groups[near.count] = groups_ & ~(depth < -box_error_).bits();
+                const Floats depth = hidden(table_.planes[triangles_.slot[i]], centers_);
+                near.add(triangles_.slot[i], groups_ & ~(depth < -box_error_).bits());
                 whole |= (depth > box_error_).bits();
-                near.add(slot, groups[near.count] != 0 ? 1 : 0);
             }
             block_groups(whole & groups_);
         } else {
-            near = triangles_;
-            std::fill(groups, groups + near.count, 1U);
+            for (std::uint32_t i = 0; i < triangles_.count; ++i) near.add(triangles_.slot[i], 1);
         }
         for (std::uint32_t i = 0; i < near.count; ++i) {
             const ShadowPlanes& planes = table_.planes[near.slot[i]];
-            for (std::uint32_t at = groups[i]; at != 0;) {
-                const int p = std::countr_zero(at) >> group_shift_;
-                at &= ~(group_mask_ << (p << group_shift_));
+            for (std::uint32_t at = near.groups[i]; at != 0;) {
+                const int p = next_packet(at);
                 const Floats depth = hidden(planes, points_[p]);
                 const std::uint32_t perhaps = waiting_[p] & ~(depth < Floats(-plane_error_)).bits();
                 const std::uint32_t sure = perhaps & (depth > Floats(plane_error_)).bits();
                 waiting_[p] &= ~sure;
                 if (perhaps != sure)
-                    put_aside(near.slot[i], p, perhaps ^ sure, depth > Floats(0.0F));
+                    leave_triangle(near.slot[i], p, perhaps ^ sure, depth > Floats(0.0F));
             }
         }
         triangles_.count = 0;
     }
+    // The packet of the first group in `groups`, all of whose groups are taken out.
+    HWY_INLINE int next_packet(std::uint32_t& groups) const {
+        const int p = std::countr_zero(groups) >> group_shift_;
+        groups &= ~(group_mask_ << (p << group_shift_));
+        return p;
+    }
 
-    HWY_INLINE void test_round(Slot slot) {
-        const RoundShape& shape = job_.tables.round(slot);
-        const LightSide side = table_.round_sides.empty()
-                                   ? LightSide::kOutside
-                                   : table_.round_sides[slot - scene_.triangle_end()];
-        const bool sphere = slot < scene_.sphere_end();
-        std::uint32_t packets = alive_;
+    void test_rounds() {
+        Near near;
         if (packets_ > 1) {
-            const RoundTest test(shape, centers_, center_ways_, round_box_error_);
-            const std::uint32_t perhaps = ~free(test, side, sphere);
-            if ((perhaps & groups_) == 0) return;
-            block_groups(blocked(test, side, sphere) & groups_);
-            packets = packets_of(perhaps & groups_);
+            std::uint32_t whole = 0;
+            for (std::uint32_t i = 0; i < rounds_.count; ++i) {
+                const RoundItem item(job_.tables, table_, rounds_.slot[i]);
+                const RoundTest test(item.shape, centers_, center_ways_, round_box_error_);
+                near.add(rounds_.slot[i], groups_ & ~test.free(item));
+                whole |= test.blocked(item);
+            }
+            block_groups(whole & groups_);
+        } else {
+            for (std::uint32_t i = 0; i < rounds_.count; ++i) near.add(rounds_.slot[i], 1);
         }
-        for (; packets != 0; packets &= packets - 1)
-            test_round(slot, shape, side, sphere, std::countr_zero(packets));
-    }
-
-    HWY_INLINE void test_round(Slot slot, const RoundShape& shape, LightSide side, bool sphere,
-                               int p) {
-        const RoundTest test(shape, points_[p], ways_[p], Floats(round_error_));
-        const std::uint32_t own = clusters_.of_slot(first_ + 16 * p, slot) & waiting_[p];
-        std::uint32_t perhaps = waiting_[p] & ~own & ~free(test, side, sphere);
-        std::uint32_t sure = perhaps & blocked(test, side, sphere);
-        if (own != 0) {
-            // The way from the sphere itself enters it iff it points inwards.
-            const Floats margin =
-                mul_add(ways_[p].inverse, Floats(round_error_), Floats(round_error_));
-            if (!sphere)
-                perhaps |= own;
-            else if (side != LightSide::kInside)
-                perhaps |= own & ~(test.along < -margin).bits();
-            if (sphere && side == LightSide::kOutside) sure |= own & (test.along > margin).bits();
+        for (std::uint32_t i = 0; i < near.count; ++i) {
+            const RoundItem item(job_.tables, table_, near.slot[i]);
+            for (std::uint32_t at = near.groups[i]; at != 0;) {
+                const int p = next_packet(at);
+                const RoundTest test(item.shape, points_[p], ways_[p], Floats(round_error_));
+                const std::uint32_t perhaps = waiting_[p] & ~test.free(item);
+                const std::uint32_t sure = perhaps & test.blocked(item);
+                waiting_[p] &= ~sure;
+                if (perhaps != sure) leave_round(near.slot[i], p, perhaps ^ sure, item, test);
+            }
         }
-        if (perhaps == 0) return;
-        waiting_[p] &= ~sure;
-        if (perhaps != sure)
-            put_aside(slot, p, perhaps & ~sure, without(test.crosses, test.behind | test.beyond));
-    }
-
-    static HWY_INLINE std::uint32_t free(const RoundTest& test, LightSide side, bool sphere) {
-        RayMask mask = test.passes | (test.outside & test.behind);
-        if (side == LightSide::kOutside) mask = mask | (test.outside & test.beyond);
-        if (side == LightSide::kInside && sphere) mask = mask | test.inside;
-        return mask.bits();
-    }
-    static HWY_INLINE std::uint32_t blocked(const RoundTest& test, LightSide side, bool sphere) {
-        if (!sphere || side == LightSide::kUnknown) return 0;
-        if (side == LightSide::kInside) return test.outside.bits();
-        const RayMask through = without(test.crosses & test.outside, test.behind | test.beyond);
-        return (through | test.inside).bits();
+        rounds_.count = 0;
     }
 
     void block_groups(std::uint32_t groups) {
@@ -232,22 +216,39 @@ class ShadowTracer {
                 waiting_[group] = 0;
         }
     }
-    HWY_INLINE std::uint32_t packets_of(std::uint32_t groups) const {
-        if (!by_fours_) return groups;
-        std::uint32_t packets = 0;
-        for (int p = 0; p < packets_; ++p) packets |= (groups >> (4 * p) & 0xf) != 0 ? 1U << p : 0;
-        return packets;
-    }
     // Finds out what still waits.
     HWY_INLINE void update() {
         alive_ = 0;
         for (int p = 0; p < packets_; ++p) alive_ |= waiting_[p] != 0 ? 1U << p : 0;
         if (!by_fours_) groups_ &= alive_;
     }
-    HWY_NOINLINE void put_aside(Slot slot, int p, std::uint32_t lanes, const RayMask& rounded) {
-        if (slot < scene_.triangle_end()) lanes &= ~clusters_.of_slot(first_ + 16 * p, slot);
+    // A triangle does not hide its own points.
+    HWY_NOINLINE void leave_triangle(Slot slot, int p, std::uint32_t lanes,
+                                     const RayMask& rounded) {
+        lanes &= ~clusters_.of_slot(first_ + 16 * p, slot);
+        put_aside(slot, p, lanes, rounded.bits());
+    }
+    // Nor does a sphere where the way to the light leads outwards. Its own points touch it, so they
+    // are among those that no test of the foot decides.
+    HWY_NOINLINE void leave_round(Slot slot, int p, std::uint32_t lanes, const RoundItem& item,
+                                  const RoundTest& test) {
+        const std::uint32_t own = lanes & clusters_.of_slot(first_ + 16 * p, slot);
+        std::uint32_t rounded = without(test.crosses, test.behind | test.beyond).bits() & ~own;
+        if (own != 0 && item.sphere) {
+            // Off by the way's own error at one end, at most 1 away, and by the point's.
+            const Floats margin =
+                mul_add(ways_[p].inverse, Floats(round_error_), Floats(round_error_));
+            const std::uint32_t outwards = (test.along < -margin).bits();
+            const std::uint32_t inwards = (test.along > margin).bits();
+            if (item.side == LightSide::kOutside) waiting_[p] &= ~(own & inwards);
+            lanes &= ~(own & (item.side == LightSide::kInside ? own : outwards));
+            rounded |= own & (test.along > Floats(0.0F)).bits();
+        }
+        put_aside(slot, p, lanes & waiting_[p], rounded);
+    }
+    HWY_INLINE void put_aside(Slot slot, int p, std::uint32_t lanes, std::uint32_t rounded) {
         if (!job_.redo_exactly) {
-            waiting_[p] &= ~(lanes & rounded.bits());
+            waiting_[p] &= ~(lanes & rounded);
             return;
         }
         for (; lanes != 0; lanes &= lanes - 1)
@@ -273,7 +274,7 @@ class ShadowTracer {
     const ShadowTable& table_;
     PointClusters clusters_;
     TileMask& lit_;
-    bool rounds_;
+    bool has_rounds_;
     float plane_error_;
     float round_error_;
 
@@ -293,7 +294,7 @@ class ShadowTracer {
     Floats box_error_;
     Floats round_box_error_;
     Batch triangles_;  // waiting for their tests
-    Batch spheres_;
+    Batch rounds_;
     std::uint32_t enough_ = kFirstBatch;
 };
 

@@ -60,6 +60,19 @@ struct Ways {
     }
 };
 
+/// A sphere, or one around an ellipsoid, with what is known of it towards the light.
+struct RoundItem {
+    HWY_INLINE RoundItem(const ShadowTables& tables, const ShadowTable& table, Slot slot)
+        : shape(tables.round(slot)),
+          side(table.round_sides.empty() ? LightSide::kOutside
+                                         : table.round_sides[slot - tables.scene().triangle_end()]),
+          sphere(slot < tables.scene().sphere_end()) {}
+
+    const RoundShape& shape;
+    LightSide side;
+    bool sphere;
+};
+
 /// What points and ways tell of a sphere; `error` bounds how far a way may be off.
 /// The point of a way nearest to the centre tells all: where it lies inside and both ends lie
 /// outside, the way is blocked; the rounding of its parameter does not matter, for wherever it lies
@@ -78,8 +91,8 @@ struct RoundTest {
         const Floats radius(shape.radius);
         const Floats more = radius + error;
         const Floats less = max(radius - error, Floats(0.0F));
-        more_square = more * more;
-        less_square = less * less;
+        const Floats more_square = more * more;
+        const Floats less_square = less * less;
         along = b;
         passes = aside > more_square;
         outside = square > more_square;
@@ -89,9 +102,21 @@ struct RoundTest {
         beyond = b >= way.distance;
     }
 
-    Floats along;  ///< from the point to the foot of the centre
-    Floats more_square;
-    Floats less_square;
+    /// Lanes whose ways the item surely does not block.
+    HWY_INLINE std::uint32_t free(const RoundItem& item) const {
+        RayMask mask = passes | (outside & behind);
+        if (item.side == LightSide::kOutside) mask = passes | (outside & (behind | beyond));
+        if (item.side == LightSide::kInside && item.sphere) mask = mask | inside;
+        return mask.bits();
+    }
+    /// Lanes whose ways the item surely blocks.
+    HWY_INLINE std::uint32_t blocked(const RoundItem& item) const {
+        if (!item.sphere || item.side == LightSide::kUnknown) return 0;
+        if (item.side == LightSide::kInside) return outside.bits();
+        return (without(crosses & outside, behind | beyond) | inside).bits();
+    }
+
+    Floats along;     ///< from the point to the foot of the centre
     RayMask passes;   ///< the line surely misses the sphere
     RayMask outside;  ///< the point surely lies outside, and does not touch
     RayMask inside;
