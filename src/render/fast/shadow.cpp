@@ -27,6 +27,7 @@ class ShadowTracer {
                  TileMask& lit)
         : job_(job),
           scene_(job.tables.scene()),
+          light_(light),
           table_(job.tables.table(light)),
           clusters_(tile, wanted),
           lit_(lit),
@@ -95,6 +96,15 @@ class ShadowTracer {
         triangles_.count = 0;
         rounds_.count = 0;
         enough_ = kFirstBatch;
+        blocker_ = kNoSlot;
+        OccluderCache& cache = job_.caches[light_];
+        if (cache.worth_a_try()) {
+            for (const Slot slot : cache.slots())
+                if (slot != kNoSlot) take(&slot, 1);
+            test_taken();
+            cache.tried(alive_ == 0);
+            if (alive_ == 0) return;
+        }
         const BeamBox beam =
             beam_to_light(table_.light, box.low, box.high, plane_error_ + 8 * kRoundoff);
         const bool done = walk_beam(
@@ -102,6 +112,7 @@ class ShadowTracer {
             [&](const std::uint32_t* items, std::uint32_t count, float)
                 HWY_ATTR { return take(items, count); });
         if (!done) test_taken();
+        if (blocker_ != kNoSlot) cache.put(blocker_);
     }
 
     // Tests are put off until there are some: what comes out of one cannot be foreseen, but they
@@ -151,7 +162,9 @@ class ShadowTracer {
             for (std::uint32_t i = 0; i < triangles_.count; ++i) {
                 const Floats depth = hidden(table_.planes[triangles_.slot[i]], centers_);
                 near.add(triangles_.slot[i], groups_ & ~(depth < -box_error_).bits());
-                whole |= (depth > box_error_).bits();
+                const std::uint32_t sure = (depth > box_error_).bits();
+                if ((sure & groups_) != 0) blocker_ = triangles_.slot[i];
+                whole |= sure;
             }
             block_groups(whole & groups_);
         } else {
@@ -165,6 +178,7 @@ class ShadowTracer {
                 const std::uint32_t perhaps = waiting_[p] & ~(depth < Floats(-plane_error_)).bits();
                 const std::uint32_t sure = perhaps & (depth > Floats(plane_error_)).bits();
                 waiting_[p] &= ~sure;
+                if (sure != 0) blocker_ = near.slot[i];
                 if (perhaps != sure)
                     leave_triangle(near.slot[i], p, perhaps ^ sure, depth > Floats(0.0F));
             }
@@ -200,6 +214,7 @@ class ShadowTracer {
                 const std::uint32_t perhaps = waiting_[p] & ~test.free(item);
                 const std::uint32_t sure = perhaps & test.blocked(item);
                 waiting_[p] &= ~sure;
+                if (sure != 0) blocker_ = near.slot[i];
                 if (perhaps != sure) leave_round(near.slot[i], p, perhaps ^ sure, item, test);
             }
         }
@@ -271,6 +286,7 @@ class ShadowTracer {
 
     ShadowJob& job_;
     const FastScene& scene_;
+    std::size_t light_;
     const ShadowTable& table_;
     PointClusters clusters_;
     TileMask& lit_;
@@ -296,6 +312,7 @@ class ShadowTracer {
     Batch triangles_;  // waiting for their tests
     Batch rounds_;
     std::uint32_t enough_ = kFirstBatch;
+    Slot blocker_ = kNoSlot;  // the last item that surely blocked something
 };
 
 void trace_shadows(ShadowJob& job, const Tile& tile, std::size_t light, const TileMask& wanted,
@@ -312,7 +329,8 @@ HWY_AFTER_NAMESPACE();
 namespace nuvo {
 
 ShadowStage::ShadowStage(const ShadowTables& tables, InstructionSet isa, bool redo_exactly)
-    : job_{tables, redo_exactly}, trace_(NUVO_FOR_ISA(isa, trace_shadows)) {}
+    : job_{tables, redo_exactly, {}, {}, std::vector<OccluderCache>(tables.light_count())},
+      trace_(NUVO_FOR_ISA(isa, trace_shadows)) {}
 
 void ShadowStage::trace(const Tile& tile, std::size_t light, const TileMask& wanted,
                         const Referee& referee, TileMask& lit) {

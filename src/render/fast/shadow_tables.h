@@ -57,6 +57,7 @@ class ShadowTables {
     const FastScene& scene() const { return scene_; }
     /// Of light i; empty where it casts no shadow.
     const ShadowTable& table(std::size_t light) const { return tables_[light]; }
+    std::size_t light_count() const { return tables_.size(); }
     const RoundShape& round(Slot slot) const { return rounds_[slot - scene_.triangle_end()]; }
     bool has_rounds() const { return !rounds_.empty(); }
 
