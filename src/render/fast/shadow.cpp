@@ -29,6 +29,7 @@ class ShadowTracer {
           scene_(job.tables.scene()),
           light_(light),
           table_(job.tables.table(light)),
+          planes_(job.tables.planes(light)),
           clusters_(tile, wanted),
           lit_(lit),
           has_rounds_(job.tables.has_rounds()) {
@@ -99,10 +100,7 @@ class ShadowTracer {
         blocker_ = kNoSlot;
         OccluderCache& cache = job_.caches[light_];
         if (cache.worth_a_try()) {
-            for (const Slot slot : cache.slots())
-                if (slot != kNoSlot) take(&slot, 1);
-            test_taken();
-            cache.tried(alive_ == 0);
+            try_occluders(cache);
             if (alive_ == 0) return;
         }
         const BeamBox beam =
@@ -113,6 +111,15 @@ class ShadowTracer {
                 HWY_ATTR { return take(items, count); });
         if (!done) test_taken();
         if (blocker_ != kNoSlot) cache.put(blocker_);
+    }
+
+    HWY_NOINLINE void try_occluders(OccluderCache& cache) {
+        for (const Slot slot : cache.slots()) {
+            if (slot == kNoSlot || job_.mailbox.seen(slot)) continue;
+            (slot < scene_.triangle_end() ? triangles_ : rounds_).add(slot, 1);
+        }
+        test_taken();
+        cache.tried(alive_ == 0);
     }
 
     // Tests are put off until there are some: what comes out of one cannot be foreseen, but they
@@ -155,15 +162,16 @@ class ShadowTracer {
         }
     };
 
-    void test_triangles() {
+    HWY_NOINLINE void test_triangles() {
         Near near;
+        Slot blocker = blocker_;
         if (packets_ > 1) {
             std::uint32_t whole = 0;
             for (std::uint32_t i = 0; i < triangles_.count; ++i) {
-                const Floats depth = hidden(table_.planes[triangles_.slot[i]], centers_);
+                const Floats depth = hidden(planes_[triangles_.slot[i]], centers_);
                 near.add(triangles_.slot[i], groups_ & ~(depth < -box_error_).bits());
                 const std::uint32_t sure = (depth > box_error_).bits();
-                if ((sure & groups_) != 0) blocker_ = triangles_.slot[i];
+                blocker = (sure & groups_) != 0 ? triangles_.slot[i] : blocker;
                 whole |= sure;
             }
             block_groups(whole & groups_);
@@ -171,19 +179,20 @@ class ShadowTracer {
             for (std::uint32_t i = 0; i < triangles_.count; ++i) near.add(triangles_.slot[i], 1);
         }
         for (std::uint32_t i = 0; i < near.count; ++i) {
-            const ShadowPlanes& planes = table_.planes[near.slot[i]];
+            const ShadowPlanes& planes = planes_[near.slot[i]];
             for (std::uint32_t at = near.groups[i]; at != 0;) {
                 const int p = next_packet(at);
                 const Floats depth = hidden(planes, points_[p]);
                 const std::uint32_t perhaps = waiting_[p] & ~(depth < Floats(-plane_error_)).bits();
                 const std::uint32_t sure = perhaps & (depth > Floats(plane_error_)).bits();
                 waiting_[p] &= ~sure;
-                if (sure != 0) blocker_ = near.slot[i];
+                blocker = sure != 0 ? near.slot[i] : blocker;
                 if (perhaps != sure)
                     leave_triangle(near.slot[i], p, perhaps ^ sure, depth > Floats(0.0F));
             }
         }
         triangles_.count = 0;
+        blocker_ = blocker;
     }
     // The packet of the first group in `groups`, all of whose groups are taken out.
     HWY_INLINE int next_packet(std::uint32_t& groups) const {
@@ -192,8 +201,9 @@ class ShadowTracer {
         return p;
     }
 
-    void test_rounds() {
+    HWY_NOINLINE void test_rounds() {
         Near near;
+        Slot blocker = blocker_;
         if (packets_ > 1) {
             std::uint32_t whole = 0;
             for (std::uint32_t i = 0; i < rounds_.count; ++i) {
@@ -214,11 +224,12 @@ class ShadowTracer {
                 const std::uint32_t perhaps = waiting_[p] & ~test.free(item);
                 const std::uint32_t sure = perhaps & test.blocked(item);
                 waiting_[p] &= ~sure;
-                if (sure != 0) blocker_ = near.slot[i];
+                blocker = sure != 0 ? near.slot[i] : blocker;
                 if (perhaps != sure) leave_round(near.slot[i], p, perhaps ^ sure, item, test);
             }
         }
         rounds_.count = 0;
+        blocker_ = blocker;
     }
 
     void block_groups(std::uint32_t groups) {
@@ -288,6 +299,7 @@ class ShadowTracer {
     const FastScene& scene_;
     std::size_t light_;
     const ShadowTable& table_;
+    const ShadowPlanes* planes_;
     PointClusters clusters_;
     TileMask& lit_;
     bool has_rounds_;
