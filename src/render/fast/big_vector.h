@@ -34,7 +34,7 @@ struct BigAllocator {
     }
     void deallocate(T* at, std::size_t n) {
         const std::size_t bytes = n * sizeof(T);
-        ::operator delete(at, bytes, alignment(bytes));
+        ::operator delete(at, alignment(bytes));
     }
     /// No value given: none written.
     template <typename U>

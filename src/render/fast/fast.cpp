@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "count.h"
 #include "dispatch.h"
 #include "exact_kernel.h"
 #include "frame.h"
@@ -60,6 +61,19 @@ std::vector<RayAnswer> FastTracer::closest_hits(std::span<const Ray> rays) const
     const Octree octree = build_tree(fast.scene(), fast.primitives(), profile);
     return nuvo::closest_hits(fast.scene(), fast.primitives(), &octree, profile, rays);
 }
+
+RayCounts FastTracer::count_rays(Resolution resolution) const {
+    const FastScene& fast = state_->fast;
+    if (is_near(fast.frame(), fast.scene().camera))
+        return nuvo::count_rays(fast, state_->triangles, state_->options.isa, resolution);
+    const Profile profile = exact_profile();
+    const Octree octree = build_tree(fast.scene(), fast.primitives(), profile);
+    const TraceCounts counts =
+        count_events(fast.scene(), fast.primitives(), octree, profile, resolution);
+    return {counts.primary_rays, counts.shadow_rays};
+}
+
+const CompactOctree& FastTracer::octree() const { return state_->fast.octree(); }
 
 FastMemory FastTracer::memory() const {
     return {state_->fast.octree().memory_bytes(), state_->table_bytes};

@@ -19,6 +19,9 @@
 namespace nuvo {
 namespace {
 
+// The counter is locked for each few tiles: a lock waits for all stores to the picture.
+constexpr std::size_t kTilesAtOnce = 4;
+
 double seconds_now() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
         .count();
@@ -140,10 +143,13 @@ Image Frame::render(FastTimes* times) {
     const auto work = [&](std::size_t thread) {
         try {
             Worker worker(scene_, *tables_, options_);
+            const std::vector<TilePlace>& tiles = tables_->tiles;
             for (;;) {
-                const std::size_t i = next.fetch_add(1, std::memory_order_relaxed);
-                if (i >= tables_->tiles.size()) return;
-                worker.trace(tables_->tiles[i], image, times ? &spent[thread] : nullptr);
+                const std::size_t first = next.fetch_add(kTilesAtOnce, std::memory_order_relaxed);
+                if (first >= tiles.size()) return;
+                const std::size_t last = std::min(first + kTilesAtOnce, tiles.size());
+                for (std::size_t i = first; i < last; ++i)
+                    worker.trace(tiles[i], image, times ? &spent[thread] : nullptr);
             }
         } catch (...) {
             failures[thread] = std::current_exception();

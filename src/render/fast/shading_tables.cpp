@@ -20,7 +20,9 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kLightsWithFacing = 8;
 
 float rounded(double value) { return static_cast<float>(value); }
+// Not below `value` >= 0; of 0 it is 0, because subnormal operands slow every operation down.
 float rounded_up(double value) {
+    if (value == 0) return 0;
     return std::nextafter(static_cast<float>(value), std::numeric_limits<float>::infinity());
 }
 double largest(const Color& c) { return std::max(c.x, std::max(c.y, c.z)); }
