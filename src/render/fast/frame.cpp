@@ -1,12 +1,10 @@
 #include "frame.h"
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
-#include <exception>
-#include <thread>
 
 #include "camera_tables.h"
+#include "nuvo/math/parallel.h"
 #include "primary.h"
 #include "shading.h"
 #include "shadow.h"
@@ -136,31 +134,19 @@ std::size_t Frame::memory_bytes() const {
 Image Frame::render(FastTimes* times) {
     const Resolution size = tables_->rays.resolution;
     Image image(size.width, size.height);
-    std::atomic<std::size_t> next{0};
+    const std::vector<TilePlace>& tiles = tables_->tiles;
     const auto threads = static_cast<std::size_t>(options_.threads);
     std::vector<FastTimes> spent(threads);
-    std::vector<std::exception_ptr> failures(threads);
-    const auto work = [&](std::size_t thread) {
-        try {
-            Worker worker(scene_, *tables_, options_);
-            const std::vector<TilePlace>& tiles = tables_->tiles;
-            for (;;) {
-                const std::size_t first = next.fetch_add(kTilesAtOnce, std::memory_order_relaxed);
-                if (first >= tiles.size()) return;
-                const std::size_t last = std::min(first + kTilesAtOnce, tiles.size());
-                for (std::size_t i = first; i < last; ++i)
-                    worker.trace(tiles[i], image, times ? &spent[thread] : nullptr);
-            }
-        } catch (...) {
-            failures[thread] = std::current_exception();
-        }
-    };
-    std::vector<std::thread> others;
-    for (std::size_t i = 1; i < threads; ++i) others.emplace_back(work, i);
-    work(0);
-    for (std::thread& other : others) other.join();
-    for (const std::exception_ptr& failure : failures)
-        if (failure) std::rethrow_exception(failure);
+    std::vector<std::unique_ptr<Worker>> workers(threads);  // made by their threads
+    for_each_index(options_.threads, (tiles.size() + kTilesAtOnce - 1) / kTilesAtOnce,
+                   [&](std::size_t group, int thread) {
+                       std::unique_ptr<Worker>& worker = workers[thread];
+                       if (!worker) worker = std::make_unique<Worker>(scene_, *tables_, options_);
+                       const std::size_t first = group * kTilesAtOnce;
+                       const std::size_t last = std::min(first + kTilesAtOnce, tiles.size());
+                       for (std::size_t i = first; i < last; ++i)
+                           worker->trace(tiles[i], image, times ? &spent[thread] : nullptr);
+                   });
     if (times != nullptr) {
         times->tables += table_seconds_;
         for (const FastTimes& part : spent) {
