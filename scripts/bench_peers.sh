@@ -126,15 +126,14 @@ run_isa() {
 }
 
 run_povray() {
-    local name file profile=fast
-    "$build/nuvo" -h | grep -q fast || profile=exact
+    local name file
     for name in "${scenes[@]}"; do
         file=$(scene "$name-far" "$name" --camera=far)
         echo "povray-$name-far" >&2
         "$build/bench/nuvo_peers" --scene="$file" --pov="$out/scenes/$name-far.pov"
         python3 "$nuvo_root/scripts/report/time_commands.py" --rounds="$few" \
             --json="$out/raw/povray-$name-far.json" \
-            --command nuvo "$build/nuvo" "--file=$file" "--profile=$profile" --rep=1 --quiet \
+            --command nuvo "$build/nuvo" "--file=$file" --profile=fast --rep=1 --quiet \
             "--out=$out/scenes/$name-nuvo.bmp" \
             --command povray povray +WT1 +W1920 +H1080 -D -GA -A +FB File_Gamma=1 "+I$out/scenes/$name-far.pov" \
             "+O$out/scenes/$name-povray.bmp"

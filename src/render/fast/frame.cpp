@@ -50,7 +50,7 @@ struct Frame::Tables {
           triangles(triangle_box),
           camera(scene, rays, options.isa),
           shadow(scene, options.isa),
-          shading(scene, rays, options.isa, options.redo_exactly),
+          shading(scene, rays, camera, options.isa, options.redo_exactly),
           tiles(tiles_in_order(resolution)) {}
 
     CameraRays rays;

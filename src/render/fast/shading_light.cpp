@@ -170,9 +170,9 @@ class LightSampler {
                 to_viewer[axis] = Floats::load(scratch_.view[axis] + first);
                 to_light[axis] = way.toward(light_, axis);
             }
-            // The view's: d's own, 3 halves of |d|^2, the root's and the product's.
+            // The view's: d's own, 2 halves of |d|^2, the root's and the product's.
             const Floats directions_error =
-                direction_error(way) + Floats(tables_.bounds.direction_relative + 5.8F * kUnit);
+                direction_error(way) + Floats(tables_.rays.relative + 4.3F * kUnit);
             lobe = specular_lobe(normal, to_light, to_viewer, normal_error(first / kBlockLanes),
                                  directions_error, of_materials(first, &ShadingMaterial::exponent));
             lobe.perhaps = lobe.perhaps & shiny;

@@ -6,6 +6,7 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "fast/shadow.cpp"
+#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 
 #include "fast/beam.h"
@@ -28,7 +29,7 @@ class ShadowTracer {
         : job_(job),
           scene_(job.tables.scene()),
           table_(job.tables.table(light)),
-          clusters_(tile, wanted),
+          clusters_(tile, wanted, table_.light, job.tables.leaf_width()),
           lit_(lit),
           has_rounds_(job.tables.has_rounds()) {
         const float error = clusters_.point_error() * (1 + 4 * kRoundoff);
@@ -111,6 +112,7 @@ class ShadowTracer {
         for (std::uint32_t i = 0; i < count; ++i) {
             const Slot slot = items[i];
             const std::uint32_t fresh = job_.mailbox.seen(slot) ? 0 : 1;
+            if (slot < triangle_end) hwy::Prefetch(table_.planes.data() + slot);
             if (slot < triangle_end)
                 triangles_.add(slot, fresh);
             else

@@ -85,6 +85,8 @@ ShadowTables::ShadowTables(const FastScene& scene, InstructionSet isa) : scene_(
         kFloatUnderflow;
     plane_error_ = rounded_up(kPlaneRoundings * kFloatRoundoff * reach_ + 2 * touch_);
     round_error_ = rounded_up(kRoundRoundings * kFloatRoundoff * reach_ + kTouch * touch_);
+    const auto nodes = static_cast<double>(scene.octree().nodes.size());
+    leaf_width_ = static_cast<float>(2 * reach_ / std::cbrt(nodes + 1));
     add_rounds();
     for (const Light& light : scene.scene().lights) {
         ShadowTable& table = tables_.emplace_back(LightPoint(light, scene.frame()));

@@ -67,6 +67,9 @@ class ShadowTables {
     /// but for twice P's own error; with a margin in which round shapes count as touched.
     float round_error() const { return round_error_; }
 
+    /// How wide a node would be if all were cubes side by side: about what a beam may be thick.
+    float leaf_width() const { return leaf_width_; }
+
     std::size_t memory_bytes() const;
 
   private:
@@ -76,6 +79,7 @@ class ShadowTables {
     const FastScene& scene_;
     double reach_;  // largest |coordinate| of the scene's box in the local frame
     double touch_;  // bounds SurfacePoint::error, in the local frame
+    float leaf_width_;
     float plane_error_;
     float round_error_;
     std::vector<RoundShape> rounds_;
