@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
 
 #include "camera_tables.h"
 #include "nuvo/math/parallel.h"
@@ -48,17 +49,24 @@ struct Frame::Tables {
            Resolution resolution)
         : rays(scene.scene().camera, resolution, scene.frame()),
           triangles(triangle_box),
-          camera(scene, rays, options.isa),
-          shadow(scene, options.isa),
-          shading(scene, rays, camera, options.isa, options.redo_exactly),
-          tiles(tiles_in_order(resolution)) {}
+          tiles(tiles_in_order(resolution)) {
+        // Those of the lights take about as long as all others, of which each needs the one before.
+        for_each_index(options.threads, 2, [&](std::size_t part, int) {
+            if (part == 0) {
+                shadow.emplace(scene, options.isa);
+            } else {
+                camera.emplace(scene, rays, options.isa);
+                shading.emplace(scene, rays, *camera, options.isa, options.redo_exactly);
+            }
+        });
+    }
 
     CameraRays rays;
     Bounds3 triangles;
-    CameraTables camera;
-    ShadowTables shadow;
-    ShadingStage shading;  // copied by each thread; the copies share its tables
     std::vector<TilePlace> tiles;
+    std::optional<ShadowTables> shadow;
+    std::optional<CameraTables> camera;
+    std::optional<ShadingStage> shading;  // copied by each thread; the copies share its tables
 };
 
 /// One thread's stages.
@@ -67,10 +75,10 @@ class Frame::Worker {
     Worker(const FastScene& scene, const Tables& tables, const FastOptions& options)
         : scene_(scene),
           referee_(scene, tables.rays, tables.triangles),
-          job_{scene, tables.rays, tables.camera, referee_, options.redo_exactly, {}},
+          job_{scene, tables.rays, *tables.camera, referee_, options.redo_exactly, {}},
           primary_(options.isa),
-          shadow_(tables.shadow, options.isa, options.redo_exactly),
-          shading_(tables.shading) {}
+          shadow_(*tables.shadow, options.isa, options.redo_exactly),
+          shading_(*tables.shading) {}
 
     void trace(TilePlace place, Image& image, FastTimes* times) {
         FastTimes spent;
@@ -127,8 +135,8 @@ Frame::Frame(const FastScene& scene, const Bounds3& triangles, const FastOptions
 Frame::~Frame() = default;
 
 std::size_t Frame::memory_bytes() const {
-    return tables_->camera.memory_bytes() + tables_->shadow.memory_bytes() +
-           tables_->shading.tables().memory_bytes();
+    return tables_->camera->memory_bytes() + tables_->shadow->memory_bytes() +
+           tables_->shading->tables().memory_bytes();
 }
 
 Image Frame::render(FastTimes* times) {
