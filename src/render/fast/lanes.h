@@ -10,6 +10,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <type_traits>
 
 // A fixed number of numbers as one value, in as many registers as the instruction set needs: the
 // kernels are written once for 16 rays or 8 octants, whatever the width of a register.
@@ -101,6 +103,24 @@ struct Lanes : LaneShape<T, N> {
             v.part[i] = hn::LoadU(Tag(), from + i * Shape::kPart);
         return v;
     }
+    /// 0 in the other lanes.
+    static HWY_INLINE Lanes load(const T* from, const Mask& mask) {
+        Lanes v;
+        for (std::size_t i = 0; i < Shape::kParts; ++i)
+            v.part[i] = hn::MaskedLoad(mask.part[i], Tag(), from + i * Shape::kPart);
+        return v;
+    }
+    /// From 16-bit numbers.
+    static HWY_INLINE Lanes from_shorts(const std::uint16_t* from) requires(
+        std::is_same_v<T, float>) {
+        using Narrow = hn::FixedTag<std::uint16_t, Shape::kPart>;
+        using Wide = hn::FixedTag<std::int32_t, Shape::kPart>;
+        Lanes v;
+        for (std::size_t i = 0; i < Shape::kParts; ++i)
+            v.part[i] = hn::ConvertTo(
+                Tag(), hn::PromoteTo(Wide(), hn::LoadU(Narrow(), from + i * Shape::kPart)));
+        return v;
+    }
     /// Four numbers, again and again.
     static HWY_INLINE Lanes load_4_again(const T* from) {
         Lanes v;
@@ -132,6 +152,37 @@ struct Lanes : LaneShape<T, N> {
     HWY_INLINE void store(T* to, const Mask& mask) const {
         for (std::size_t i = 0; i < Shape::kParts; ++i)
             hn::BlendedStore(part[i], mask.part[i], Tag(), to + i * Shape::kPart);
+    }
+    /// from[0] in even lanes, from[1] in odd ones.
+    static HWY_INLINE Lanes pairs(const std::uint32_t* from) requires(
+        std::is_same_v<T, std::int32_t>) {
+        Lanes v;
+        if constexpr (Shape::kPart == 1) {
+            for (std::size_t i = 0; i < Shape::kParts; ++i)
+                v.part[i] = hn::Set(Tag(), static_cast<std::int32_t>(from[i % 2]));
+        } else {
+            using Pair = hn::FixedTag<std::uint64_t, HWY_MAX(Shape::kPart / 2, 1)>;
+            std::uint64_t both;
+            std::memcpy(&both, from, sizeof both);
+            for (std::size_t i = 0; i < Shape::kParts; ++i)
+                v.part[i] = hn::BitCast(Tag(), hn::Set(Pair(), both));
+        }
+        return v;
+    }
+    /// Lane i is lane index[i] modulo N of this.
+    HWY_INLINE Lanes permuted(const Lanes<std::int32_t, N>& index) const requires(sizeof(T) == 4) {
+        Lanes v;
+        if constexpr (Shape::kParts == 1) {
+            const auto wrapped = HWY_TARGET == HWY_AVX3
+                                     ? index.part[0]  // as the instruction does
+                                     : (index & Lanes<std::int32_t, N>(N - 1)).part[0];
+            v.part[0] = hn::TableLookupLanes(part[0], hn::IndicesFromVec(Tag(), wrapped));
+        } else {
+            alignas(64) T values[N];
+            store(values);
+            v = gather(values, index & Lanes<std::int32_t, N>(N - 1));
+        }
+        return v;
     }
     /// The lanes of `mask` side by side; returns their number. Up to N lanes are written.
     HWY_INLINE std::size_t compress_store(T* to, const Mask& mask) const {
@@ -196,6 +247,10 @@ struct Lanes : LaneShape<T, N> {
     }
     friend HWY_INLINE Lanes sqrt(Lanes a) {
         for (std::size_t i = 0; i < Shape::kParts; ++i) a.part[i] = hn::Sqrt(a.part[i]);
+        return a;
+    }
+    friend HWY_INLINE Lanes operator>>(Lanes a, const Lanes& bits) {
+        for (std::size_t i = 0; i < Shape::kParts; ++i) a.part[i] = hn::Shr(a.part[i], bits.part[i]);
         return a;
     }
     friend HWY_INLINE Lanes floor(Lanes a) {

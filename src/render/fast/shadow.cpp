@@ -28,7 +28,9 @@ class ShadowTracer {
                  TileMask& lit)
         : job_(job),
           scene_(job.tables.scene()),
+          light_(light),
           table_(job.tables.table(light)),
+          planes_(job.tables.planes(light)),
           clusters_(tile, wanted, table_.light, job.tables.leaf_width()),
           lit_(lit),
           has_rounds_(job.tables.has_rounds()) {
@@ -96,6 +98,12 @@ class ShadowTracer {
         triangles_.count = 0;
         rounds_.count = 0;
         enough_ = kFirstBatch;
+        blocker_ = kNoSlot;
+        OccluderCache& cache = job_.caches[light_];
+        if (cache.worth_a_try()) {
+            try_occluders(cache);
+            if (alive_ == 0) return;
+        }
         const BeamBox beam =
             beam_to_light(table_.light, box.low, box.high, plane_error_ + 8 * kRoundoff);
         const bool done = walk_beam(
@@ -103,6 +111,16 @@ class ShadowTracer {
             [&](const std::uint32_t* items, std::uint32_t count, float)
                 HWY_ATTR { return take(items, count); });
         if (!done) test_taken();
+        if (blocker_ != kNoSlot) cache.put(blocker_);
+    }
+
+    HWY_NOINLINE void try_occluders(OccluderCache& cache) {
+        for (const Slot slot : cache.slots()) {
+            if (slot == kNoSlot || job_.mailbox.seen(slot)) continue;
+            (slot < scene_.triangle_end() ? triangles_ : rounds_).add(slot, 1);
+        }
+        test_taken();
+        cache.tried(alive_ == 0);
     }
 
     // Tests are put off until there are some: what comes out of one cannot be foreseen, but they
@@ -112,7 +130,7 @@ class ShadowTracer {
         for (std::uint32_t i = 0; i < count; ++i) {
             const Slot slot = items[i];
             const std::uint32_t fresh = job_.mailbox.seen(slot) ? 0 : 1;
-            if (slot < triangle_end) hwy::Prefetch(table_.planes.data() + slot);
+            if (slot < triangle_end) hwy::Prefetch(planes_ + slot);
             if (slot < triangle_end)
                 triangles_.add(slot, fresh);
             else
@@ -146,32 +164,37 @@ class ShadowTracer {
         }
     };
 
-    void test_triangles() {
+    HWY_NOINLINE void test_triangles() {
         Near near;
+        Slot blocker = blocker_;
         if (packets_ > 1) {
             std::uint32_t whole = 0;
             for (std::uint32_t i = 0; i < triangles_.count; ++i) {
-                const Floats depth = hidden(table_.planes[triangles_.slot[i]], centers_);
+                const Floats depth = hidden(planes_[triangles_.slot[i]], centers_);
                 near.add(triangles_.slot[i], groups_ & ~(depth < -box_error_).bits());
-                whole |= (depth > box_error_).bits();
+                const std::uint32_t sure = (depth > box_error_).bits();
+                blocker = (sure & groups_) != 0 ? triangles_.slot[i] : blocker;
+                whole |= sure;
             }
             block_groups(whole & groups_);
         } else {
             for (std::uint32_t i = 0; i < triangles_.count; ++i) near.add(triangles_.slot[i], 1);
         }
         for (std::uint32_t i = 0; i < near.count; ++i) {
-            const ShadowPlanes& planes = table_.planes[near.slot[i]];
+            const ShadowPlanes& planes = planes_[near.slot[i]];
             for (std::uint32_t at = near.groups[i]; at != 0;) {
                 const int p = next_packet(at);
                 const Floats depth = hidden(planes, points_[p]);
                 const std::uint32_t perhaps = waiting_[p] & ~(depth < Floats(-plane_error_)).bits();
                 const std::uint32_t sure = perhaps & (depth > Floats(plane_error_)).bits();
                 waiting_[p] &= ~sure;
+                blocker = sure != 0 ? near.slot[i] : blocker;
                 if (perhaps != sure)
                     leave_triangle(near.slot[i], p, perhaps ^ sure, depth > Floats(0.0F));
             }
         }
         triangles_.count = 0;
+        blocker_ = blocker;
     }
     // The packet of the first group in `groups`, all of whose groups are taken out.
     HWY_INLINE int next_packet(std::uint32_t& groups) const {
@@ -180,8 +203,9 @@ class ShadowTracer {
         return p;
     }
 
-    void test_rounds() {
+    HWY_NOINLINE void test_rounds() {
         Near near;
+        Slot blocker = blocker_;
         if (packets_ > 1) {
             std::uint32_t whole = 0;
             for (std::uint32_t i = 0; i < rounds_.count; ++i) {
@@ -202,10 +226,12 @@ class ShadowTracer {
                 const std::uint32_t perhaps = waiting_[p] & ~test.free(item);
                 const std::uint32_t sure = perhaps & test.blocked(item);
                 waiting_[p] &= ~sure;
+                blocker = sure != 0 ? near.slot[i] : blocker;
                 if (perhaps != sure) leave_round(near.slot[i], p, perhaps ^ sure, item, test);
             }
         }
         rounds_.count = 0;
+        blocker_ = blocker;
     }
 
     void block_groups(std::uint32_t groups) {
@@ -273,7 +299,9 @@ class ShadowTracer {
 
     ShadowJob& job_;
     const FastScene& scene_;
+    std::size_t light_;
     const ShadowTable& table_;
+    const ShadowPlanes* planes_;
     PointClusters clusters_;
     TileMask& lit_;
     bool has_rounds_;
@@ -298,6 +326,7 @@ class ShadowTracer {
     Batch triangles_;  // waiting for their tests
     Batch rounds_;
     std::uint32_t enough_ = kFirstBatch;
+    Slot blocker_ = kNoSlot;  // the last item that surely blocked something
 };
 
 void trace_shadows(ShadowJob& job, const Tile& tile, std::size_t light, const TileMask& wanted,
@@ -314,7 +343,8 @@ HWY_AFTER_NAMESPACE();
 namespace nuvo {
 
 ShadowStage::ShadowStage(const ShadowTables& tables, InstructionSet isa, bool redo_exactly)
-    : job_{tables, redo_exactly}, trace_(NUVO_FOR_ISA(isa, trace_shadows)) {}
+    : job_{tables, redo_exactly, {}, {}, std::vector<OccluderCache>(tables.light_count())},
+      trace_(NUVO_FOR_ISA(isa, trace_shadows)) {}
 
 void ShadowStage::trace(const Tile& tile, std::size_t light, const TileMask& wanted,
                         const Referee& referee, TileMask& lit) {

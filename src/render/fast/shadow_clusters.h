@@ -108,14 +108,24 @@ class PointClusters {
 
     HWY_INLINE void add(const Tile& tile, int b, std::uint32_t lanes, Floats& error) {
         const int from = b * kBlockLanes;
-        const RayMask mask = RayMask::from_bits(lanes);
-        for (int axis = 0; axis < 3; ++axis)
-            Floats::load(tile.point[axis] + from).compress_store(at_[axis] + count_, mask);
-        error = max(error, select(mask, Floats::load(tile.point_error + from), Floats(0.0F)));
-        const auto ints = mask_for<std::int32_t>(mask);
-        Ints::load(reinterpret_cast<const std::int32_t*>(tile.slot) + from)
-            .compress_store(slot_ + count_, ints);
-        Ints::load(kLaneNumbers.lane + from).compress_store(lane_ + count_, ints);
+        const Floats errors = Floats::load(tile.point_error + from);
+        const auto* const slots = reinterpret_cast<const std::int32_t*>(tile.slot) + from;
+        const Ints numbers = Ints::load(kLaneNumbers.lane + from);
+        if (lanes == 0xffff) {
+            for (int axis = 0; axis < 3; ++axis)
+                Floats::load(tile.point[axis] + from).store(at_[axis] + count_);
+            error = max(error, errors);
+            Ints::load(slots).store(slot_ + count_);
+            numbers.store(lane_ + count_);
+        } else {
+            const RayMask mask = RayMask::from_bits(lanes);
+            const auto ints = mask_for<std::int32_t>(mask);
+            for (int axis = 0; axis < 3; ++axis)
+                Floats::load(tile.point[axis] + from).compress_store(at_[axis] + count_, mask);
+            error = max(error, select(mask, errors, Floats(0.0F)));
+            Ints::load(slots).compress_store(slot_ + count_, ints);
+            numbers.compress_store(lane_ + count_, ints);
+        }
         count_ += std::popcount(lanes);
     }
 

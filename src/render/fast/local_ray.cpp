@@ -1,0 +1,99 @@
+#include "local_ray.h"
+
+#include <bit>
+#include <cmath>
+
+namespace nuvo {
+namespace {
+
+constexpr std::uint32_t kRow = kWideLanes;  // floats, in WideNode
+constexpr std::uint32_t kToHigh = 3 * kRow;
+
+constexpr int kExponentPlace = 52;
+constexpr std::uint64_t kExponentBias = 1023;
+
+// The power of two that brings a positive normal number to [1, 2).
+double to_unit(double value) {
+    const std::uint64_t exponent = std::bit_cast<std::uint64_t>(value) >> kExponentPlace;
+    return std::bit_cast<double>((2 * kExponentBias - exponent) << kExponentPlace);
+}
+
+double larger(double a, double b) { return a > b ? a : b; }
+
+// The ray enters the box around 0 with this half width later than this, if it does. Axes along
+// which the ray hardly moves are left out.
+double before_box(const Point3& o, const Vector3& d, double half) {
+    constexpr double kHardly = 0x1p-20;
+    double entry = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (std::fabs(d[axis]) < kHardly) continue;
+        const double near = d[axis] > 0 ? -half : half;
+        entry = larger(entry, (near - o[axis]) / d[axis]);
+    }
+    return entry;
+}
+
+}  // namespace
+
+LocalRay::LocalRay(const Ray& ray, const LocalFrame& frame, float reach) {
+    // Where neither a scaled direction nor a scaled coordinate is subnormal or overflows.
+    constexpr double kRange = 0x1p900;
+    const double size = max_norm(ray.direction);
+    Point3 o = frame.local(ray.origin);
+    const double far = max_norm(o);
+    if (!(size > 1 / kRange && size < kRange && far < kRange)) return;
+    const double unit = to_unit(size);
+    const Vector3 d = ray.direction * unit;
+    scale = frame.scale / unit;
+    if (!(scale > 1 / kRange && scale < kRange)) return;
+    valid = true;
+
+    constexpr double kNear = 4;  // origins within this are as good as in the box
+    error = 0x1p-50 * (far + 4);
+    if (far > kNear) {
+        // One more than the box's half width, and 4 roundings of the way.
+        const double way = before_box(o, d, reach + 1.0) * (1 - 0x1p-50);
+        if (way > 0) {
+            advance = way;
+            o = o + d * way;
+        }
+    }
+    behind = advance > 0 ? -0.25F : 0.0F;
+    for (int axis = 0; axis < 3; ++axis) {
+        origin[axis] = o[axis];
+        step[axis] = d[axis];
+        direction[axis] = static_cast<float>(d[axis]);
+    }
+    prepare_slabs(reach);
+    direction_sum = static_cast<float>((std::fabs(d.x) + std::fabs(d.y) + std::fabs(d.z)) *
+                                       (1 + 0x1p-22));
+    square = static_cast<float>(dot(d, d));
+    // A point of the ray at a box's entry lies within 2 margins of that box, which is to be less
+    // than 2^14 units of the leaf's grid; and its error less than 2^-6 units.
+    const double margin =
+        kSlabRoundings * kFloatUnit * (reach + max_norm(Point3{origin[0], origin[1], origin[2]})) +
+        error;
+    least_unit = static_cast<float>(larger(margin * 0x1p-13, error * 0x1p6));
+}
+
+void LocalRay::prepare_slabs(float reach) {
+    signs = 0;
+    for (std::uint32_t axis = 0; axis < 3; ++axis) {
+        const std::uint32_t negative = std::signbit(step[axis]) ? 1 : 0;
+        const float size = std::fabs(direction[axis]);
+        const float bounded = size > kLeastDirection ? size : kLeastDirection;
+        const double i = 1 / bounded;
+        const double slack =
+            (kSlabRoundings * kFloatUnit * (reach + std::fabs(origin[axis])) + error) * i;
+        const double signed_i = negative != 0 ? -i : i;
+        const double at = -origin[axis] * signed_i;
+        inverse[axis] = static_cast<float>(signed_i);
+        near_add[axis] = static_cast<float>(at - slack);
+        far_add[axis] = static_cast<float>(at + slack);
+        signs |= negative << axis;
+        near_offset[axis] = axis * kRow + negative * kToHigh;
+        far_offset[axis] = axis * kRow + (1 - negative) * kToHigh;
+    }
+}
+
+}  // namespace nuvo

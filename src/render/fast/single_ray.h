@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "exact_kernel.h"
+#include "fast_scene.h"
+#include "local_ray.h"
+#include "nuvo/render/fast.h"
+#include "ray_flight.h"
+#include "triangle_roots.h"
+#include "wide_octree.h"
+
+// Rays that have nothing in common, one at a time: 16 voxels or 16 primitives to a step.
+
+namespace nuvo {
+
+/// So many rays are walked before their answers are made.
+inline constexpr std::size_t kRayBatch = 1024;
+
+/// The closest hits of arbitrary rays. Not for several threads at once.
+class SingleRays {
+    using Kernel = ExactKernelOf<SceneStore>;
+
+  public:
+    /// Keeps a reference to the scene; makes copies of its own in a layout for rays.
+    /// `redo_exactly`: see FastOptions.
+    SingleRays(const FastScene& scene, InstructionSet isa, bool redo_exactly);
+
+    /// What closest_hits() of the exact profile answers.
+    std::vector<RayAnswer> closest_hits(std::span<const Ray> rays) const;
+
+    /// Bytes of nodes and leaves.
+    std::size_t memory_bytes() const { return tree_.memory_bytes(); }
+
+    // For the walks.
+    const FastScene& scene() const { return scene_; }
+    const WideOctree& tree() const { return tree_; }
+    /// What the bounds of the float stage are multiplied with: 1, or 0 for measuring their price.
+    float bounds_scale() const { return bounds_scale_; }
+    /// The nearest of the candidates by exact arithmetic, if any is met.
+    std::optional<RayCandidate> decide(const Ray& ray, const LocalRay& local,
+                                       std::span<const RayCandidate> candidates) const;
+    /// The nearest primitive among all; kNoSlot: none.
+    Slot by_force(const Ray& ray) const;
+
+  private:
+    // Where the triangles of an object are.
+    struct MeshPlace {
+        const Point3* positions;
+        const IndexTriple* triangles;
+        std::int64_t shape;
+    };
+
+    void answer(std::span<const Ray> rays, const Slot* found, RayAnswer* answers) const;
+    double root_of(const Ray& ray, Slot slot) const;
+
+    const FastScene& scene_;
+    Kernel kernel_;
+    WideOctree tree_;
+    std::vector<MeshPlace> meshes_;  // by object
+    TriangleRootStage roots_;
+    float bounds_scale_;
+    void (*walk_)(const SingleRays&, std::span<const Ray>, Slot*);
+};
+
+}  // namespace nuvo

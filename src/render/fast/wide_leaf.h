@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "wide_octree.h"
+
+namespace nuvo {
+
+/// Appends a leaf with these slots (ascending) and returns its place.
+std::uint32_t append_leaf(const FastScene& scene, std::span<const Slot> slots,
+                          std::vector<std::uint32_t>& words);
+
+/// The box of what lies of `slot` in the voxel, from outside; may be empty.
+Bounds3T<float> clipped_box(const FastScene& scene, Slot slot, const Bounds3T<float>& voxel);
+
+}  // namespace nuvo
