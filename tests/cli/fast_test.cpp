@@ -110,6 +110,18 @@ TEST_F(Fast, TheRaysAreCountedAsTheSerialTracerCountsThem) {
     EXPECT_EQ(fast["build_wall_seconds"].size(), 1u);
 }
 
+// Each thread's stack is taken out of the limit.
+TEST_F(Fast, WhereThreadsAreRefusedThereAreFewer) {
+    put("a.x3d", grid_scene(4));
+    const std::string expected = picture({"--res=640,480"});
+    constexpr rlim_t kTwoGigabytes = rlim_t{1} << 31;
+    const Outcome outcome = finish(start({"--file=a", "--rep=1", "--out=few.bmp", "--res=640,480",
+                                          "--profile=fast", "--threads=1024"},
+                                         "", kTwoGigabytes));
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_TRUE(content("few.bmp") == expected);
+}
+
 TEST_F(Fast, WhatCannotBeObeyedIsRefusedInOneLine) {
     put("a.x3d", kSmallScene);
     expect_refused({"--file=a", "--profile=fast", "--walk=hash"}, kUsage,
