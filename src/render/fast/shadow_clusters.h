@@ -105,7 +105,7 @@ class PointClusters {
   private:
     static constexpr float kCoherent = 0.1F;
     static constexpr float kLarge = 1.0F;
-    static constexpr float kGain = 0.8F;
+    static constexpr float kGain = 0.6F;
 
     HWY_INLINE void add(const Tile& tile, int b, std::uint32_t lanes, Floats& error) {
         const int from = b * kBlockLanes;
