@@ -323,6 +323,14 @@ HWY_INLINE Doubles doubles_from(const Floats& v) {
     return out;
 }
 
+/// Without their fractions.
+HWY_INLINE Ints integers_from(const Floats& v) {
+    Ints out;
+    for (std::size_t i = 0; i < Floats::Shape::kParts; ++i)
+        out.part[i] = hn::ConvertTo(Ints::Tag(), v.part[i]);
+    return out;
+}
+
 /// At least 1 / sqrt(v), and at most 2^-9 more of it; v >= 0.
 HWY_INLINE Floats above_inverse_sqrt(Floats v) {
 #if HWY_TARGET == HWY_SCALAR || HWY_TARGET == HWY_EMU128
