@@ -132,6 +132,20 @@ FrameContest contest_frames(const Scene& scene, const ContestOptions& options,
     return contest;
 }
 
+std::size_t pixels_unlike_exact(const Scene& scene, const ContestOptions& options) {
+    const Primitives primitives = flatten(scene, LeafContent::kPrimitives);
+    Profile profile = exact_profile();
+    profile.walk = WalkChoice::kDescent;
+    const Octree octree = build_tree(scene, primitives, profile);
+    const Image exact = render(scene, primitives, octree, profile, options.resolution);
+    std::size_t differing = 0;
+    for (const OctreeType type : options.types) {
+        FastTracer tracer(scene, primitives, fast_options(options, type));
+        differing += agreement(exact, tracer.render(options.resolution)).differing;
+    }
+    return differing;
+}
+
 RayContest contest_rays(const Scene& scene, const ContestOptions& options, const Survey& survey) {
     const Primitives primitives = flatten(scene, LeafContent::kPrimitives);
     const FloatScene floats = to_float(scene, primitives);

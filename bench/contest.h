@@ -16,9 +16,9 @@ struct ContestOptions {
     std::string json;
     Resolution resolution;
     int rounds = 9;
-    std::vector<OctreeType> types{OctreeType::kUniform, OctreeType::kNonuniform};
+    std::vector<OctreeType> types{OctreeType::kNonuniform, OctreeType::kUniform};
     std::string isa;  ///< "avx512", "avx2", "sse4.2" or "sse2", for both; empty: the best
-    std::string parts = "frame,rays,exactness,threads";
+    std::string parts = "frame,check,rays,exactness,threads";
     std::optional<std::string> pov;       ///< write the scene for POV-Ray here and do nothing else
     std::optional<std::string> pictures;  ///< NAME: write NAME-ours.bmp and NAME-embree.bmp
 };
@@ -78,6 +78,9 @@ struct FrameContest {
 };
 FrameContest contest_frames(const Scene& scene, const ContestOptions& options,
                             const Survey& survey);
+
+/// Pixels of our pictures, summed over the types, that are not the exact profile's: 0.
+std::size_t pixels_unlike_exact(const Scene& scene, const ContestOptions& options);
 
 /// Rays between random points of the scene's box, seconds for all of them.
 struct RayContest {

@@ -19,7 +19,7 @@ constexpr std::string_view kUsage =
     "  --res=W,H        size of the pictures (1920,1080)\n"
     "  --type=NAME      uniform or nonuniform octrees only\n"
     "  --isa=NAME       avx512, avx2, sse4.2 or sse2 for both sides (the best)\n"
-    "  --parts=LIST     of frame, rays, exactness, threads (all, separated by commas)\n"
+    "  --parts=LIST     of frame, check, rays, exactness, threads (all, with commas)\n"
     "  --pictures=NAME  write NAME-ours.bmp and NAME-embree.bmp\n"
     "  --pov=FILE       write the scene for POV-Ray and stop\n";
 
@@ -205,6 +205,7 @@ std::string measured(const Scene& scene, const ContestOptions& options) {
     write_survey(json, survey);
     const OctreeType type = options.types.front();
     if (wanted("frame")) write_frames(json, contest_frames(scene, options, survey));
+    if (wanted("check")) json.member("pixels_unlike_exact", pixels_unlike_exact(scene, options));
     if (wanted("rays")) write_rays(json, contest_rays(scene, options, survey), options);
     if (wanted("exactness")) write_exactness(json, price_of_exactness(scene, options, type));
     if (wanted("threads")) write_threads(json, contest_threads(scene, options, survey, type));

@@ -84,7 +84,7 @@ run_scenes() {
     for name in "${scenes[@]}"; do
         measure "frame-$name-far" "$(scene "$name-far" "$name" --camera=far)" --rounds="$rounds"
         measure "frame-$name-near" "$(scene "$name-near" "$name" --camera=near)" \
-            --rounds="$rounds" --parts=frame,exactness
+            --rounds="$rounds" --parts=frame,check,exactness
     done
 }
 
@@ -94,10 +94,10 @@ run_large() {
     for camera in far near; do
         measure "frame-test2x100-$camera" \
             "$(scene "test2x100-$camera" test2 --copies=100 --camera=$camera)" \
-            --rounds=$few --parts=frame,rays,exactness
+            --rounds=$few --parts=frame,check,rays,exactness
         measure "frame-spheres1e6-$camera" \
             "$(scene "spheres1e6-$camera" spheres --count=1000000 --camera=$camera)" \
-            --rounds=$few --parts=frame,rays,exactness
+            --rounds=$few --parts=frame,check,rays,exactness
     done
 }
 
@@ -120,21 +120,20 @@ run_isa() {
     for isa in avx512 avx2 sse4.2 sse2; do
         for name in "${scenes[@]}"; do
             measure "isa-$isa-$name" "$(scene "$name-far" "$name" --camera=far)" --isa=$isa \
-                --rounds="$few" --parts=frame
+                --rounds="$few" --parts=frame,check
         done
     done
 }
 
 run_povray() {
-    local name file profile=fast
-    "$build/nuvo" -h | grep -q fast || profile=exact
+    local name file
     for name in "${scenes[@]}"; do
         file=$(scene "$name-far" "$name" --camera=far)
         echo "povray-$name-far" >&2
         "$build/bench/nuvo_peers" --scene="$file" --pov="$out/scenes/$name-far.pov"
         python3 "$nuvo_root/scripts/report/time_commands.py" --rounds="$few" \
             --json="$out/raw/povray-$name-far.json" \
-            --command nuvo "$build/nuvo" "--file=$file" "--profile=$profile" --rep=1 --quiet \
+            --command nuvo "$build/nuvo" "--file=$file" --profile=fast --rep=1 --quiet \
             "--out=$out/scenes/$name-nuvo.bmp" \
             --command povray povray +WT1 +W1920 +H1080 -D -GA -A +FB File_Gamma=1 "+I$out/scenes/$name-far.pov" \
             "+O$out/scenes/$name-povray.bmp"

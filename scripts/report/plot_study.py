@@ -16,7 +16,7 @@ try:
 except ImportError:
     sys.exit("plot_study.py: matplotlib is not installed (apt-get install python3-matplotlib)")
 
-PROFILES = {"exact": "tab:blue", "thesis": "tab:orange"}
+PROFILES = {"exact": "tab:blue", "thesis": "tab:orange", "fast": "tab:red"}
 PRECISIONS = {"exact": "o", "double": "s", "float": "^"}
 
 

@@ -11,6 +11,7 @@
 #include "nuvo/app/report.h"
 #include "nuvo/image/bmp.h"
 #include "nuvo/image/file_writer.h"
+#include "passes.h"
 #include "scene_files.h"
 
 namespace nuvo::app {
@@ -29,43 +30,6 @@ void print_report(const Options& options, const Report& report) {
 
 void write_json(const Options& options, const Report& report) {
     if (options.json) image::write_file_atomically(*options.json, report_json(options, report));
-}
-
-/// Builds and traces; the last picture stays in `picture`. [thesis 5.7.1]
-Pass run_pass(const Scene& scene, const Options& options, const Profile& profile, int repetitions,
-              Image& picture) {
-    Pass pass;
-    pass.name = name_of(kOctreeTypes, profile.type);
-    Primitives primitives;
-    Octree octree;
-    const ProcessStopwatch process;
-    for (int i = 0; i < repetitions; ++i) {
-        const StageStopwatch build;
-        primitives = flatten(scene, profile.leaves);
-        octree = build_tree(scene, primitives, profile);
-        pass.build_seconds.push_back(build.seconds());
-        picture = Image();  // two pictures need not be held at once
-        const StageStopwatch trace;
-        picture = render(scene, primitives, octree, profile, options.resolution);
-        pass.trace_seconds.push_back(trace.seconds());
-    }
-    pass.process = process.elapsed();
-    pass.tree = figures(octree);
-    if (options.counters || options.json)
-        pass.counts = count_events(scene, primitives, octree, profile, options.resolution);
-    return pass;
-}
-
-Pass run_brute_force(const Scene& scene, const Options& options, Image& picture) {
-    Pass pass;
-    pass.name = "brute force";
-    const Primitives primitives = flatten(scene, options.profile.leaves);
-    const ProcessStopwatch process;
-    const StageStopwatch trace;
-    picture = render_brute_force(scene, primitives, options.profile, options.resolution);
-    pass.trace_seconds.push_back(trace.seconds());
-    pass.process = process.elapsed();
-    return pass;
 }
 
 void show_octree(const Scene& scene, const Profile& profile) {
@@ -130,6 +94,11 @@ ExitCode compare_command(const Options& options) {
         report.passes.push_back(
             run_pass(loaded.scene, options, profile, 1, pictures.emplace_back()));
     }
+    if (options.profile.tracer == TracerChoice::kTiles) {
+        report.passes.push_back(
+            run_pass(loaded.scene, options, exact_profile(), 1, pictures.emplace_back()));
+        report.passes.back().name = "serial";
+    }
     report.passes.push_back(run_brute_force(loaded.scene, options, pictures.emplace_back()));
 
     std::size_t far_first = 0, far_second = 1;
@@ -164,20 +133,8 @@ ExitCode rays_command(const Options& options) {
     check_outputs({loaded.path, *options.rays}, with_json(outputs, options));
 
     Report report = begin_report(loaded);
-    Pass pass;
-    pass.name = name_of(kOctreeTypes, options.profile.type);
-    const ProcessStopwatch process;
-    const StageStopwatch build;
-    const Primitives primitives = flatten(loaded.scene, options.profile.leaves);
-    const Octree octree = build_tree(loaded.scene, primitives, options.profile);
-    pass.build_seconds.push_back(build.seconds());
-    const StageStopwatch trace;
-    const std::vector<RayAnswer> answers =
-        closest_hits(loaded.scene, primitives, &octree, options.profile, rays);
-    pass.trace_seconds.push_back(trace.seconds());
-    pass.process = process.elapsed();
-    pass.tree = figures(octree);
-    report.passes.push_back(std::move(pass));
+    std::vector<RayAnswer> answers;
+    report.passes.push_back(run_rays(loaded.scene, options, rays, answers));
     report.rays = rays.size();
     report.hits = static_cast<std::size_t>(
         std::count_if(answers.begin(), answers.end(), [](const RayAnswer& a) { return a.hit; }));

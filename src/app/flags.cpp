@@ -62,16 +62,10 @@ void apply_repetitions(Options& options, const std::string& value) {
 }
 
 void apply_profile(Options& options, const std::string& value) {
-    // --type comes earlier in the table and belongs to the user whatever the profile.
     const OctreeType type = options.profile.type;
-    if (value == "exact") {
-        options.profile = exact_profile();
-    } else if (value == "thesis") {
-        options.profile = thesis_profile();
-    } else {
-        throw UsageError("must be exact|thesis");
-    }
-    options.profile.type = type;
+    options.profile = parse_choice(kProfiles, value)();
+    // --type comes earlier in the table and belongs to the user whatever the profile.
+    if (options.type_given) options.profile.type = type;
     options.profile_name = value;
 }
 
@@ -108,6 +102,16 @@ void apply_bias(Options& options, const std::string& value) {
     options.profile.bias.reset();
     if (value != "exact")
         options.profile.bias = parse_number(value, 0, true, "must be exact or a number >= 0");
+}
+
+void apply_isa(Options& options, const std::string& value) {
+    options.isa = parse_choice(kInstructionSets, value);
+    std::string supported;
+    for (const InstructionSet isa : supported_instruction_sets()) {
+        if (isa == options.isa) return;
+        supported += (supported.empty() ? "" : ", ") + std::string(name_of(kInstructionSets, isa));
+    }
+    throw UsageError("this machine has " + supported);
 }
 
 /// A whole number from 1 to `most`.
@@ -173,13 +177,18 @@ std::vector<Flag> thesis_flags() {
         {"res", "--res", "W,H", standard_resolution,
          "size of the picture, each side 1 to " + std::to_string(kMaxSidePixels) + " pixels",
          apply_resolution},
-        {"type", "--type", joined_names(kOctreeTypes), "uniform", "the octree",
-         [](Options& o, const std::string& v) { o.profile.type = parse_choice(kOctreeTypes, v); }},
+        {"type", "--type", joined_names(kOctreeTypes), "uniform",
+         "the octree; the fast profile's default is the one that was measured faster: " +
+             std::string(name_of(kOctreeTypes, fast_profile().type)),
+         [](Options& o, const std::string& v) {
+             o.profile.type = parse_choice(kOctreeTypes, v);
+             o.type_given = true;
+         }},
         {"showoctree", "-showoctree", "", "", "print the octree as text first (extremely verbose)",
          [](Options& o, const std::string&) { o.show_octree = true; }},
         {"compare", "-compare", "", "",
-         "render once each with the uniform octree, the non-uniform one and by brute force; print "
-         "how far the pictures are apart and write the difference picture",
+         "render once each with the uniform octree, the non-uniform one and by brute force (tiles: "
+         "and serially); print how far the pictures are apart and write the difference picture",
          [](Options& o, const std::string&) { o.compare = true; }},
         {"help", "-h, --help", "", "", "print this list",
          [](Options& o, const std::string&) { o.help = true; }},
@@ -188,8 +197,23 @@ std::vector<Flag> thesis_flags() {
 
 std::vector<Flag> profile_flags() {
     return {
-        {"profile", "--profile", "exact|thesis", "exact",
-         "a bundle of the answers below: right numbers, or the published program", apply_profile},
+        {"profile", "--profile", joined_names(kProfiles), "exact",
+         "a bundle of the answers below: right numbers, the published program, or the right "
+         "numbers' picture in the least time",
+         apply_profile},
+        {"tracer", "--tracer", joined_names(kTracers), "by profile",
+         "one ray at a time, or groups of rays in vector registers, which decide every answer "
+         "below but the type themselves",
+         [](Options& o, const std::string& v) { o.profile.tracer = parse_choice(kTracers, v); }},
+        {"threads", "--threads", "N", std::to_string(Options().threads),
+         "threads of the tile tracer, up to " + std::to_string(kMaxThreads) +
+             "; 0: one for each core",
+         [](Options& o, const std::string& v) {
+             o.threads = parse_integer(
+                 v, 0, kMaxThreads, "must be a whole number 0 to " + std::to_string(kMaxThreads));
+         }},
+        {"isa", "--isa", joined_names(kInstructionSets), "",
+         "instruction set of the tile tracer; none given: the best of the machine", apply_isa},
         {"midpoint", "--midpoint", joined_names(kMidpoints), "mlsl-sbplx",
          "where a non-uniform voxel is cut",
          [](Options& o, const std::string& v) {
@@ -242,7 +266,7 @@ std::vector<Flag> output_flags() {
          [](Options& o, const std::string& v) { o.headlight = parse_choice(kHeadlights, v); }},
         {"counters", "--counters", "", "",
          "count intersection tests and voxel searches in an extra pass that is not timed (--json "
-         "does, too)",
+         "does, too); of the tile tracer: rays, and the time of each stage",
          [](Options& o, const std::string&) { o.counters = true; }},
         {"quiet", "--quiet", "", "", "no report on standard output",
          [](Options& o, const std::string&) { o.quiet = true; }},

@@ -109,6 +109,33 @@ void apply(const Flag& flag, const std::map<std::string, std::string>& given, Op
     }
 }
 
+/// What has no meaning with the tile tracer, or none without it.
+void check_tile_tracer(const Options& options, const std::map<std::string, std::string>& given) {
+    const auto as_typed = [&given](const char* name) {
+        return "--" + std::string(name) + "=" + given.at(name);
+    };
+    if (options.profile.tracer == TracerChoice::kSerial) {
+        for (const char* own : {"threads", "isa"})
+            if (given.count(own) != 0)
+                throw UsageError(as_typed(own) +
+                                 ": the serial tracer has no choice of it (add --profile=fast)");
+        return;
+    }
+    const std::string cause = as_typed(given.count("tracer") != 0 ? "tracer" : "profile");
+    for (const char* fixed :
+         {"midpoint", "costs", "max-objects", "leaves", "walk", "step", "precision", "bias"})
+        if (given.count(fixed) != 0)
+            throw UsageError(as_typed(fixed) + " and " + cause +
+                             " cannot be combined: the tile tracer answers that itself");
+    if (options.profile.precision != Precision::kExact)
+        throw UsageError("--profile=" + options.profile_name + " and " + cause +
+                         " cannot be combined: the tile tracer knows no numbers but right ones");
+    if (options.show_octree)
+        throw UsageError("-showoctree and " + cause +
+                         " cannot be combined: the tile tracer's voxels have no names to print "
+                         "(add --tracer=serial)");
+}
+
 void check_combinations(const Options& options, const std::map<std::string, std::string>& given) {
     const auto is_given = [&given](const char* name) { return given.count(name) != 0; };
     if (options.compare && is_given("type"))
@@ -117,8 +144,9 @@ void check_combinations(const Options& options, const std::map<std::string, std:
     if (options.show_octree && options.rays)
         throw UsageError("-showoctree and --rays cannot be combined");
     if (options.study)
-        for (const char* other : {"compare", "rays", "showoctree", "profile", "costs", "leaves",
-                                  "walk", "step", "precision", "bias", "out", "json", "counters"})
+        for (const char* other :
+             {"compare", "rays", "showoctree", "profile", "costs", "leaves", "walk", "step",
+              "precision", "bias", "tracer", "threads", "isa", "out", "json", "counters"})
             if (is_given(other))
                 throw UsageError(
                     std::string("--study chooses the answers and the outputs: leave --") + other +
@@ -127,6 +155,7 @@ void check_combinations(const Options& options, const std::map<std::string, std:
         for (const char* other : {"compare", "rays", "showoctree", "out", "json"})
             if (is_given(other))
                 throw UsageError(std::string("--describe draws nothing: leave ") + other + " out");
+    check_tile_tracer(options, given);
     if (is_given("midpoint") && !options.compare && !options.study &&
         options.profile.type == OctreeType::kUniform)
         throw UsageError("--midpoint=" + given.at("midpoint") +
@@ -141,7 +170,6 @@ Options parse(const std::vector<std::string>& arguments) {
     const std::map<std::string, std::string> given = read_tokens(arguments);
     Options options;
     options.profile = exact_profile();
-    options.profile.type = OctreeType::kUniform;
     options.help = given.count("help") != 0;
     options.version = given.count("version") != 0;
     if (options.help || options.version) return options;

@@ -6,7 +6,9 @@ namespace nuvo::app {
 
 void write_profile(JsonWriter& json, const Options& options) {
     const Profile& profile = options.profile;
+    const bool tiles = profile.tracer == TracerChoice::kTiles;
     const bool cuts_freely = options.compare || profile.type == OctreeType::kNonuniform;
+    const MidpointChoice free_cut = tiles ? MidpointChoice::kSweep : profile.midpoint;
     const auto number_or_exact = [&json](const char* name, const std::optional<double>& value) {
         if (value) {
             json.member(name, *value);
@@ -17,9 +19,9 @@ void write_profile(JsonWriter& json, const Options& options) {
     json.key("profile");
     json.begin_object();
     json.member("name", options.profile_name);
+    json.member("tracer", name_of(kTracers, profile.tracer));
     json.member("type", options.compare ? "all" : name_of(kOctreeTypes, profile.type));
-    json.member("midpoint",
-                name_of(kMidpoints, cuts_freely ? profile.midpoint : MidpointChoice::kSpatial));
+    json.member("midpoint", name_of(kMidpoints, cuts_freely ? free_cut : MidpointChoice::kSpatial));
     json.key("costs");
     if (profile.max_objects) {
         json.null();
@@ -27,14 +29,14 @@ void write_profile(JsonWriter& json, const Options& options) {
         json.value(name_of(kCosts, profile.costs));
     }
     json.member("thesis_weight", profile.thesis_weight);
-    json.key("max_objects");
-    if (profile.max_objects) {
-        json.value(*profile.max_objects);
-    } else {
-        json.null();
-    }
+    json.member("max_objects", profile.max_objects);
     json.member("leaves", name_of(kLeafContents, profile.leaves));
-    json.member("walk", name_of(kWalks, profile.walk));
+    json.key("walk");
+    if (tiles) {
+        json.null();
+    } else {
+        json.value(name_of(kWalks, profile.walk));
+    }
     number_or_exact("step", profile.step);
     json.member("precision", name_of(kPrecisions, profile.precision));
     number_or_exact("bias", profile.bias);

@@ -37,6 +37,34 @@ std::string tree_line(const Pass& pass) {
                   bytes_text(tree.memory_bytes).c_str());
 }
 
+std::string tile_lines(const Pass& pass) {
+    const TileFigures& tiles = *pass.tiles;
+    std::string lines = format(
+        "%-10s %s: depth %d, %s with items, %s, %s, %s\n", "octree", pass.name.c_str(), tiles.depth,
+        counted(tiles.voxels, "voxel").c_str(), counted(tiles.nodes, "node").c_str(),
+        counted(tiles.references, "reference").c_str(), bytes_text(tiles.memory.structure).c_str());
+    lines += format("%-10s %s, %s, %s of tables for camera and lights\n", "tiles",
+                    counted(static_cast<std::size_t>(tiles.threads), "thread").c_str(),
+                    std::string(name_of(kInstructionSets, tiles.isa)).c_str(),
+                    bytes_text(tiles.memory.tables).c_str());
+    if (tiles.counts)
+        lines += format("%-10s %llu primary and %llu shadow rays\n", "counts",
+                        static_cast<unsigned long long>(tiles.counts->primary_rays),
+                        static_cast<unsigned long long>(tiles.counts->shadow_rays));
+    if (tiles.stage_seconds)
+        lines +=
+            format("%-10s tables %.6f s, primary rays %.6f s, shadow rays %.6f s, shading %.6f s\n",
+                   "stages", tiles.stage_seconds->tables, tiles.stage_seconds->primary,
+                   tiles.stage_seconds->shadow, tiles.stage_seconds->shading);
+    return lines;
+}
+
+/// How long a user of several threads waits.
+std::string wall_line(const Pass& pass) {
+    return format("%-10s build %.6f s, trace %.6f s (means)\n", "wall",
+                  mean(pass.build_wall_seconds), mean(pass.trace_wall_seconds));
+}
+
 std::string counts_line(const TraceCounts& counts) {
     const double rays = std::max(1.0, static_cast<double>(counts.primary_rays));
     const auto a_ray = [rays](std::uint64_t n) { return static_cast<double>(n) / rays; };
@@ -56,6 +84,15 @@ std::string predicates_line(const PredicateCounts& predicates) {
         "predicates", static_cast<unsigned long long>(predicates.tests),
         static_cast<unsigned long long>(predicates.wider),
         static_cast<unsigned long long>(predicates.exact));
+}
+
+std::string octree_lines(const Pass& pass) {
+    if (pass.tiles) return tile_lines(pass);
+    std::string lines =
+        pass.tree ? tree_line(pass) : format("%-10s none: %s\n", "octree", pass.name.c_str());
+    if (pass.counts) lines += counts_line(*pass.counts);
+    if (pass.counts && pass.counts->predicates) lines += predicates_line(*pass.counts->predicates);
+    return lines;
 }
 
 std::string average_line(const Pass& pass) {
@@ -90,6 +127,11 @@ std::string pair_line(const Pair& pair) {
 
 }  // namespace
 
+bool type_is_measured(const Options& options) {
+    return options.profile_name == "fast" && options.profile.tracer == TracerChoice::kTiles &&
+           !options.type_given && !options.compare;
+}
+
 SceneCounts count(const Scene& scene) {
     SceneCounts counts;
     counts.shapes = scene.shape_count;
@@ -111,10 +153,25 @@ TreeFigures figures(const Octree& octree) {
             octree.reference_count(), octree.memory_bytes(), octree.smallest_width()};
 }
 
+TileFigures figures(const FastTracer& tracer, const FastOptions& options) {
+    const CompactOctree& octree = tracer.octree();
+    TileFigures tiles;
+    tiles.threads = options.threads;
+    tiles.isa = options.isa;
+    tiles.depth = octree.depth();
+    tiles.voxels = octree.leaf_count();
+    tiles.nodes = octree.nodes.size();
+    tiles.references = octree.items.size();
+    tiles.memory = tracer.memory();
+    return tiles;
+}
+
 std::string profile_flags_text(const Options& options) {
     const Profile& profile = options.profile;
     std::string text = "--profile=" + options.profile_name;
+    text += " --tracer=" + std::string(name_of(kTracers, profile.tracer));
     if (!options.compare) text += " --type=" + std::string(name_of(kOctreeTypes, profile.type));
+    if (profile.tracer == TracerChoice::kTiles) return text;  // the other answers are its own
     if (options.compare || profile.type == OctreeType::kNonuniform)
         text += " --midpoint=" + std::string(name_of(kMidpoints, profile.midpoint));
     if (profile.max_objects) {
@@ -138,17 +195,17 @@ std::string report_text(const Options& options, const Report& report) {
                counted(scene.shapes, "shape").c_str(), counted(scene.triangles, "triangle").c_str(),
                counted(scene.spheres, "sphere").c_str(), counted(scene.lights, "light").c_str());
     text += format("%-10s %s\n", "profile", profile_flags_text(options).c_str());
+    if (type_is_measured(options))
+        text += format("%-10s %s, which was measured faster (--type chooses)\n", "type",
+                       std::string(name_of(kOctreeTypes, options.profile.type)).c_str());
     if (!report.rays)
         text += format("%-10s %d x %d\n", "pixels", options.resolution.width,
                        options.resolution.height);
     for (const Pass& pass : report.passes) {
-        text +=
-            pass.tree ? tree_line(pass) : format("%-10s none: %s\n", "octree", pass.name.c_str());
-        if (pass.counts) text += counts_line(*pass.counts);
-        if (pass.counts && pass.counts->predicates)
-            text += predicates_line(*pass.counts->predicates);
-        if (pass.tree) text += time_line("build", pass.build_seconds);
+        text += octree_lines(pass);
+        if (!pass.build_seconds.empty()) text += time_line("build", pass.build_seconds);
         text += time_line("trace", pass.trace_seconds);
+        if (pass.tiles && pass.tiles->threads > 1) text += wall_line(pass);
         if (!options.compare && !report.rays) text += average_line(pass);
     }
     for (const Pair& pair : report.pairs) text += pair_line(pair);

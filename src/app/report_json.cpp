@@ -1,3 +1,4 @@
+#include "nuvo/app/choices.h"
 #include "nuvo/app/json_writer.h"
 #include "nuvo/app/report.h"
 #include "options_json.h"
@@ -46,11 +47,43 @@ void write_counts(JsonWriter& json, const TraceCounts& counts) {
     json.end_object();
 }
 
+void write_tiles(JsonWriter& json, const TileFigures& tiles) {
+    json.key("tiles");
+    json.begin_object();
+    json.member("threads", tiles.threads);
+    json.member("isa", name_of(kInstructionSets, tiles.isa));
+    json.member("depth", tiles.depth);
+    json.member("voxels_with_items", tiles.voxels);
+    json.member("nodes", tiles.nodes);
+    json.member("references", tiles.references);
+    json.member("structure_bytes", tiles.memory.structure);
+    json.member("table_bytes", tiles.memory.tables);
+    json.end_object();
+    if (tiles.counts) {
+        json.key("counts");
+        json.begin_object();
+        json.member("primary_rays", tiles.counts->primary_rays);
+        json.member("shadow_rays", tiles.counts->shadow_rays);
+        json.end_object();
+    }
+    if (!tiles.stage_seconds) return;
+    json.key("stage_seconds");
+    json.begin_object();
+    json.member("tables", tiles.stage_seconds->tables);
+    json.member("primary", tiles.stage_seconds->primary);
+    json.member("shadow", tiles.stage_seconds->shadow);
+    json.member("shading", tiles.stage_seconds->shading);
+    json.end_object();
+}
+
 void write_pass(JsonWriter& json, const Pass& pass) {
+    if (pass.tiles) write_tiles(json, *pass.tiles);
     if (pass.tree) write_tree(json, *pass.tree);
     if (pass.counts) write_counts(json, *pass.counts);
     json.member("build_seconds", pass.build_seconds);
     json.member("trace_seconds", pass.trace_seconds);
+    json.member("build_wall_seconds", pass.build_wall_seconds);
+    json.member("trace_wall_seconds", pass.trace_wall_seconds);
     json.member("user_seconds", pass.process.user_seconds);
     json.member("system_seconds", pass.process.system_seconds);
     json.member("wall_seconds", pass.process.wall_seconds);

@@ -38,6 +38,8 @@ constexpr Combination kCombinations[] = {
     {"exact", "--bias=0"},
     {"exact", "--bias=0.004"},
     {"exact", "--bias=0.04"},
+    {"fast", ""},
+    {"fast", "--type=nonuniform"},
     {"thesis", ""},
     {"thesis", "--type=nonuniform"},
     {"thesis", "--walk=descent"},
@@ -80,6 +82,7 @@ StudyCase study_case(const Combination& combination, const Profile& given) {
     }
     StudyCase result{std::string(combination.profile), change, parse(arguments).profile};
     if (change.find("--type=") == std::string::npos) result.answers.type = given.type;
+    if (result.answers.tracer == TracerChoice::kTiles) return result;
     result.answers.midpoint = given.midpoint;
     result.answers.max_objects = given.max_objects;
     return result;
@@ -91,15 +94,30 @@ double median(std::vector<double> values) {
     return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
 }
 
-/// What a case must be right about.
+/// What a case must be right about; no facts: they are not known.
 struct Truth {
     std::vector<PixelFacts> facts;
     Image picture;
 };
 
+/// The same by the tile tracer, which tells its picture only.
+void measure_tiles(const Scene& scene, Resolution resolution, StudyRow& row, Truth* shown) {
+    const StageStopwatch build;
+    const Primitives primitives = flatten(scene, LeafContent::kPrimitives);
+    FastOptions options;
+    options.type = row.what.answers.type;
+    FastTracer tracer(scene, primitives, options);
+    row.build_seconds.push_back(build.seconds());
+    const StageStopwatch trace;
+    Image picture = tracer.render(resolution);
+    row.trace_seconds.push_back(trace.seconds());
+    if (shown != nullptr) *shown = {{}, std::move(picture)};
+}
+
 /// Builds and traces a case once; what it shows only where `shown` asks.
 void measure(const Scene& scene, Resolution resolution, StudyRow& row, Truth* shown) {
     const Profile& profile = row.what.answers;
+    if (profile.tracer == TracerChoice::kTiles) return measure_tiles(scene, resolution, row, shown);
     const StageStopwatch build;
     const Primitives primitives = flatten(scene, profile.leaves);
     const Octree octree = build_tree(scene, primitives, profile);
@@ -113,14 +131,18 @@ void measure(const Scene& scene, Resolution resolution, StudyRow& row, Truth* sh
 }
 
 void compare_with(const Truth& truth, const Truth& shown, StudyRow& row) {
+    row.difference = image::compare(truth.picture, shown.picture);
+    if (shown.facts.empty()) return;
+    std::size_t wrong_primitives = 0, wrong_shadows = 0;
     for (std::size_t i = 0; i < truth.facts.size(); ++i) {
         if (truth.facts[i].primitive != shown.facts[i].primitive) {
-            ++row.wrong_primitives;
+            ++wrong_primitives;
         } else if (truth.facts[i].lit != shown.facts[i].lit) {
-            ++row.wrong_shadows;
+            ++wrong_shadows;
         }
     }
-    row.difference = image::compare(truth.picture, shown.picture);
+    row.wrong_primitives = wrong_primitives;
+    row.wrong_shadows = wrong_shadows;
 }
 
 /// A study takes minutes: on a terminal it says how far it is.

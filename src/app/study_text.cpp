@@ -8,14 +8,16 @@
 namespace nuvo::app {
 namespace {
 
+std::string known(const std::optional<std::size_t>& n) { return n ? std::to_string(*n) : "-"; }
+
 std::string row_text(const StudyRow& row, int name_width) {
     const image::Difference& d = row.difference;
     const std::string psnr = std::isfinite(d.psnr_db) ? format("%.2f", d.psnr_db) : "inf";
-    return format("%-7s %-*s %10.6f  %10.6f .. %10.6f %10.6f %9zu %7zu %4d %9.5f %7s  %s\n",
+    return format("%-7s %-*s %10.6f  %10.6f .. %10.6f %10.6f %9s %7s %4d %9.5f %7s  %s\n",
                   row.what.profile.c_str(), name_width, row.what.change.c_str(), row.trace.median,
-                  row.trace.low, row.trace.high, row.build_median, row.wrong_primitives,
-                  row.wrong_shadows, d.max_difference, d.rms, psnr.c_str(),
-                  row.on_frontier ? "*" : "");
+                  row.trace.low, row.trace.high, row.build_median,
+                  known(row.wrong_primitives).c_str(), known(row.wrong_shadows).c_str(),
+                  d.max_difference, d.rms, psnr.c_str(), row.on_frontier ? "*" : "");
 }
 
 }  // namespace

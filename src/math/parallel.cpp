@@ -4,6 +4,7 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -44,8 +45,12 @@ void for_each_index(int threads, std::size_t count,
     const auto useful = static_cast<int>(std::min(static_cast<std::size_t>(threads), count));
     {
         std::vector<std::jthread> others;
-        for (int thread = 1; thread < useful; ++thread)
-            others.emplace_back([&loop, thread] { loop.run(thread); });
+        try {
+            for (int thread = 1; thread < useful; ++thread)
+                others.emplace_back([&loop, thread] { loop.run(thread); });
+        } catch (const std::system_error&) {
+            // The system has no more threads: those that there are do the work.
+        }
         loop.run(0);
     }
     loop.rethrow();

@@ -105,8 +105,10 @@ CompactOctree build_compact_octree(std::span<const Bounds3T<float>> boxes,
     tree.bounds = root_box(boxes);
     CompactBuildOptions options = user_options;
     options.costs.beam *= max_norm(tree.bounds.widths());  // now in the boxes' units
-    const Allowance allowance{options.max_references_per_item * static_cast<double>(boxes.size()),
-                              CompactNode::kMaxNodes - 1.0};
+    const Allowance allowance{
+        std::max(options.max_references_per_item * static_cast<double>(boxes.size()),
+                 options.free_references),
+        CompactNode::kMaxNodes - 1.0};
     std::vector<PlanNode> plan = make_plan({tree.bounds, 1, allowance}, boxes, options);
     carry_out(plan, boxes, options);
     const Ranges ranges(plan, tree);

@@ -24,16 +24,10 @@ class Planner {
     }
 
     std::optional<Split> try_split(const PlanNode& node) {
-        const std::size_t count = node.items.size();
-        if (node.place.level >= CompactOctree::kMaxDepth) return std::nullopt;
-        const std::optional<CutVoxel> cut =
-            choose_cut(options_.rule, node.place.voxel, node.items, boxes_);
-        if (!cut) return std::nullopt;
-        const Split split{*cut, mark(*cut, node.items)};
-        if (!node.place.allowance.permits(split) || !prices_.pays(split, count) ||
-            split.occupied() == 0)
-            return std::nullopt;
-        return split;
+        const std::optional<Split> split = find_split(
+            options_.rule, prices_, node.place, node.items, boxes_, masks_,
+            [&](const CutVoxel& cut, std::uint8_t* masks) { return mark(cut, node.items, masks); });
+        return split && split->occupied() != 0 ? split : std::nullopt;
     }
 
     // The items of one octant of the node that was split last.
@@ -42,22 +36,20 @@ class Planner {
         std::size_t next = 0;
         for (std::size_t i = 0; i < node.items.size(); ++i) {
             items[next] = node.items[i];
-            next += masks_[i] >> octant & 1U;
+            next += masks_.kept[i] >> octant & 1U;
         }
         items.pop_back();
         return items;
     }
 
   private:
-    std::array<std::size_t, 8> mark(const CutVoxel& voxel, ItemSpan items) {
-        masks_.resize(items.size());
+    std::array<std::size_t, 8> mark(const CutVoxel& voxel, ItemSpan items, std::uint8_t* masks) {
         const std::size_t chunks = (items.size() + kChunk - 1) / kChunk;
         std::vector<std::array<std::size_t, 8>> counts(chunks);
         for_each_index(options_.threads, chunks, [&](std::size_t i, int thread) {
             const std::size_t begin = i * kChunk;
             const ItemSpan part = items.subspan(begin, std::min(kChunk, items.size() - begin));
-            counts[i] =
-                markers_[static_cast<std::size_t>(thread)].mark(voxel, part, masks_.data() + begin);
+            counts[i] = markers_[static_cast<std::size_t>(thread)].mark(voxel, part, masks + begin);
         });
         std::array<std::size_t, 8> sums{};
         for (const auto& part : counts)
@@ -69,7 +61,7 @@ class Planner {
     const CompactBuildOptions& options_;
     Prices prices_;
     std::vector<OctantMarker> markers_;
-    std::vector<std::uint8_t> masks_;
+    SplitMasks masks_;
 };
 
 }  // namespace

@@ -8,6 +8,10 @@
 namespace nuvo {
 namespace {
 
+// Many items may go on being cut at a loss up to this factor. Triangles as large as the scene, at
+// random, touch more than half of the octants: 1.1.
+constexpr double kHope = 1.3;
+
 // Octants in the lower and in the upper half of each axis.
 constexpr std::uint8_t kLower[3] = {0x55, 0x33, 0x0f};
 constexpr std::uint8_t kUpper[3] = {0xaa, 0xcc, 0xf0};
@@ -64,11 +68,20 @@ std::array<std::size_t, 8> count_octants(const std::uint8_t* masks, std::size_t 
 
 }  // namespace
 
-bool Prices::pays(const Split& split, std::size_t count) const {
+double Prices::after(const Split& split) const {
     double cost = interior(split.voxel.bounds);
     for (unsigned o = 0; o < 8; ++o)
         if (split.counts[o] != 0) cost += leaf(octant_box(split.voxel, o), split.counts[o]);
-    return cost < leaf(split.voxel.bounds, count);
+    return cost;
+}
+
+bool Prices::worth_trying(const Split& split, std::size_t count) const {
+    const double as_leaf = leaf(split.voxel.bounds, count);
+    const double cost = after(split);
+    if (cost < as_leaf) return true;
+    const bool parted =
+        std::find(split.counts.begin(), split.counts.end(), count) == split.counts.end();
+    return count >= kManyItems && parted && cost < kHope * as_leaf;
 }
 
 std::array<std::size_t, 8> OctantMarker::mark(const CutVoxel& voxel, ItemSpan items,

@@ -42,8 +42,11 @@ class Prices {
     double interior(const Bounds3T<float>& voxel) const { return chance(voxel) * costs_.interior; }
     /// False where a cut cannot pay: it costs a step and saves at most all tests.
     bool may_pay(std::size_t count) const { return static_cast<double>(count) > costs_.interior; }
-    /// With the octants taken for leaves.
-    bool pays(const Split& split, std::size_t count) const;
+    /// Of a cut voxel with the octants taken for leaves.
+    double after(const Split& split) const;
+    /// Whether to go on below the cut of a voxel with so many items: not only where it pays at
+    /// once, for items that are large for the voxel are parted by several cuts only.
+    bool worth_trying(const Split& split, std::size_t count) const;
 
   private:
     // Of meeting the voxel, in proportion to half its surface.

@@ -29,14 +29,9 @@ SubtreeBuilder::Built SubtreeBuilder::node(const Place& place, Run run) {
 }
 
 std::optional<Split> SubtreeBuilder::try_split(const Place& place, ItemSpan items) {
-    if (place.level >= CompactOctree::kMaxDepth || !prices_.may_pay(items.size()))
-        return std::nullopt;
-    const std::optional<CutVoxel> cut = choose_cut(rule_, place.voxel, items, boxes_);
-    if (!cut) return std::nullopt;
-    if (masks_.size() < items.size()) masks_.resize(items.size());
-    const Split split{*cut, marker_.mark(*cut, items, masks_.data())};
-    if (!place.allowance.permits(split) || !prices_.pays(split, items.size())) return std::nullopt;
-    return split;
+    return find_split(
+        rule_, prices_, place, items, boxes_, masks_,
+        [&](const CutVoxel& cut, std::uint8_t* masks) { return marker_.mark(cut, items, masks); });
 }
 
 SubtreeBuilder::Built SubtreeBuilder::leaf(const Place& place, Run run) {
@@ -57,7 +52,7 @@ SubtreeBuilder::Built SubtreeBuilder::interior(const Place& place, const Split& 
         top_ += split.counts[o] + 1;
     }
     if (stack_.size() < top_) stack_.resize(std::max(top_, 2 * stack_.size()));
-    distribute(items(run), masks_.data(), first, stack_.data());
+    distribute(items(run), masks_.kept.data(), first, stack_.data());
 
     std::array<CompactNode, 8> children;
     std::size_t built = 0;

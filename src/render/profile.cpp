@@ -8,6 +8,9 @@ namespace {
 constexpr double kThesisStep = 0.01;
 // const float BIAS of thesis 5.3.2, in scene units.
 constexpr double kThesisBias = 0.04;
+// Its frames, build included, took less time on tests 1 to 4, seen from far and near, and with
+// hundred times their triangles; the teapot's took up to a tenth more.
+constexpr OctreeType kFasterType = OctreeType::kNonuniform;
 
 }  // namespace
 
@@ -22,5 +25,13 @@ Profile thesis_profile() {
 }
 
 Profile exact_profile() { return {}; }
+
+Profile fast_profile() {
+    Profile profile;
+    profile.tracer = TracerChoice::kTiles;
+    profile.type = kFasterType;
+    profile.walk = WalkChoice::kDescent;
+    return profile;
+}
 
 }  // namespace nuvo

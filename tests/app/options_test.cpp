@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "nuvo/app/choices.h"
+
 namespace nuvo::app {
 namespace {
 
@@ -24,6 +26,16 @@ std::string usage_error(const std::vector<std::string>& arguments) {
 
 bool contains(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
+}
+
+/// False for "--isa=NAME" of an instruction set that this machine lacks.
+bool supported(const std::string& argument) {
+    for (const auto& choice : kInstructionSets) {
+        if (argument != "--isa=" + std::string(choice.name)) continue;
+        const auto sets = supported_instruction_sets();
+        return std::find(sets.begin(), sets.end(), choice.value) != sets.end();
+    }
+    return true;
 }
 
 std::string text_of(const std::string& name) {
@@ -120,10 +132,64 @@ TEST(Options, EveryListedWordIsTaken) {
             std::vector<std::string> arguments{"--" + flag.name + "=" +
                                                flag.value.substr(at, end - at)};
             if (flag.name == "midpoint") arguments.push_back("--type=nonuniform");
-            EXPECT_EQ(usage_error(arguments), "");
+            if (flag.name == "isa") arguments.push_back("--profile=fast");
+            if (!supported(arguments[0])) {
+                EXPECT_TRUE(contains(usage_error(arguments), "this machine has"));
+            } else {
+                EXPECT_EQ(usage_error(arguments), "");
+            }
             at = end + 1;
         }
     }
+}
+
+TEST(Options, TheFastProfileIsTheTileTracerOnTheOctreeThatWasMeasuredFaster) {
+    const Options options = parse({"--profile=fast"});
+    EXPECT_EQ(options.profile.tracer, TracerChoice::kTiles);
+    EXPECT_EQ(options.profile.type, fast_profile().type);
+    EXPECT_FALSE(options.type_given);
+    EXPECT_EQ(options.threads, 1);
+    EXPECT_EQ(options.isa, InstructionSet::kBest);
+    for (const auto& type : kOctreeTypes) {
+        const Options chosen = parse({"--profile=fast", "--type=" + std::string(type.name)});
+        EXPECT_EQ(chosen.profile.type, type.value);
+        EXPECT_TRUE(chosen.type_given);
+    }
+    EXPECT_EQ(parse({"--tracer=tiles"}).profile.tracer, TracerChoice::kTiles);
+    EXPECT_EQ(parse({"--tracer=tiles"}).profile.type, OctreeType::kUniform);
+    EXPECT_EQ(parse({"--tracer=serial", "--profile=fast"}).profile.tracer, TracerChoice::kSerial);
+    EXPECT_EQ(parse({}).profile.tracer, TracerChoice::kSerial);
+}
+
+TEST(Options, ThreadsAndInstructionSetsAreTheTileTracers) {
+    EXPECT_EQ(parse({"--profile=fast", "--threads=7"}).threads, 7);
+    EXPECT_EQ(parse({"--tracer=tiles", "--threads=0"}).threads, 0);
+    EXPECT_EQ(parse({"--profile=fast", "--threads=1024"}).threads, 1024);
+    EXPECT_TRUE(contains(usage_error({"--profile=fast", "--threads=1025"}), "1024"));
+    for (const char* own : {"--threads=1", "--isa=sse2"})
+        for (const char* profile : {"--profile=exact", "--profile=thesis", "--tracer=serial"}) {
+            EXPECT_TRUE(contains(usage_error({own, profile}), own));
+            EXPECT_TRUE(contains(usage_error({own, profile}), "--profile=fast"));
+        }
+    for (const InstructionSet isa : supported_instruction_sets())
+        EXPECT_EQ(
+            parse({"--profile=fast", "--isa=" + std::string(name_of(kInstructionSets, isa))}).isa,
+            isa);
+}
+
+TEST(Options, WhatTheTileTracerDecidesItselfIsRefusedBesideIt) {
+    for (const char* cause : {"--profile=fast", "--tracer=tiles"})
+        for (const char* fixed :
+             {"--midpoint=sweep", "--costs=calibrated", "--max-objects=3", "--leaves=primitives",
+              "--walk=hash", "--step=exact", "--precision=exact", "--bias=0", "-showoctree"}) {
+            const std::string error = usage_error({cause, "--type=nonuniform", fixed});
+            EXPECT_TRUE(contains(error, fixed)) << cause << " " << fixed << ": " << error;
+            EXPECT_TRUE(contains(error, cause)) << cause << " " << fixed << ": " << error;
+            EXPECT_EQ(
+                usage_error({"--profile=fast", "--tracer=serial", "--type=nonuniform", fixed}), "");
+        }
+    const std::string error = usage_error({"--profile=thesis", "--tracer=tiles"});
+    EXPECT_TRUE(contains(error, "--profile=thesis") && contains(error, "--tracer=tiles")) << error;
 }
 
 TEST(Options, LimitsHoldAtTheLimitAndOneBesideIt) {
@@ -173,6 +239,10 @@ TEST(Options, BadValuesAreNamedWithTheirFlag) {
                             "--leaves=trees",
                             "--walk=run",
                             "--precision=half",
+                            "--tracer=ray",
+                            "--threads=-1",
+                            "--threads=two",
+                            "--isa=mmx",
                             "--headlight=dim",
                             "--midpoint=middle"}) {
         const std::string error = usage_error({bad});
@@ -228,7 +298,8 @@ TEST(Options, FlagsThatContradictEachOtherAreRefused) {
     EXPECT_NE(usage_error({"--rays=r", "-showoctree"}), "");
     EXPECT_NE(usage_error({"--max-objects=3", "--costs=thesis"}), "");
     EXPECT_EQ(usage_error({"--study", "--midpoint=sweep", "--type=uniform"}), "");
-    EXPECT_TRUE(contains(usage_error({"--study", "--bias=0"}), "--bias"));
+    for (const char* chosen : {"--bias=0", "--tracer=tiles", "--threads=2", "--isa=sse2"})
+        EXPECT_TRUE(contains(usage_error({"--study", chosen}), "--study")) << chosen;
 }
 
 TEST(Options, AStudyMayHaveAFile) {
@@ -254,6 +325,7 @@ TEST(Flags, StandardValuesInTheTableAreTheDefaultsOfTheParser) {
         if (flag.standard.empty() || flag.standard == "by profile") continue;
         std::vector<std::string> arguments{"--" + flag.name + "=" + flag.standard};
         if (flag.name == "midpoint") arguments.push_back("-compare");
+        if (flag.name == "threads") arguments.push_back("--tracer=tiles");
         const Options given = parse(arguments);
         EXPECT_EQ(given.file, untouched.file) << flag.name;
         EXPECT_EQ(given.repetitions, untouched.repetitions) << flag.name;
@@ -262,6 +334,7 @@ TEST(Flags, StandardValuesInTheTableAreTheDefaultsOfTheParser) {
         EXPECT_EQ(given.profile.midpoint, untouched.profile.midpoint) << flag.name;
         EXPECT_EQ(given.profile.precision, untouched.profile.precision) << flag.name;
         EXPECT_EQ(given.headlight, untouched.headlight) << flag.name;
+        EXPECT_EQ(given.threads, untouched.threads) << flag.name;
     }
 }
 

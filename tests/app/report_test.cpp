@@ -80,13 +80,62 @@ TEST(Report, PsnrOfEqualPicturesIsNullInJsonAndInfInText) {
 
 TEST(Report, ProfileAnswersAreTheFlagsThatGiveThem) {
     const std::vector<std::string> arguments{
-        "--profile=thesis",  "--type=nonuniform",  "--midpoint=sweep",
-        "--costs=thesis:12", "--leaves=shapes",    "--walk=descent",
-        "--step=0.25",       "--precision=double", "--bias=0.5"};
+        "--profile=thesis",   "--tracer=serial", "--type=nonuniform", "--midpoint=sweep",
+        "--costs=thesis:12",  "--leaves=shapes", "--walk=descent",    "--step=0.25",
+        "--precision=double", "--bias=0.5"};
     std::string expected;
     for (const std::string& argument : arguments)
         expected += (expected.empty() ? "" : " ") + argument;
     EXPECT_EQ(profile_flags_text(parse(arguments)), expected);
+}
+
+TEST(Report, TheAnswersOfTheTileTracerAreItsOwn) {
+    EXPECT_EQ(profile_flags_text(parse({"--profile=fast", "--type=nonuniform"})),
+              "--profile=fast --tracer=tiles --type=nonuniform");
+}
+
+Report tile_example() {
+    Report report = example();
+    Pass& pass = report.passes[0];
+    pass.tree.reset();
+    pass.counts.reset();
+    pass.tiles =
+        TileFigures{2, InstructionSet::kAvx2, 5, 70, 90, 110, {2'500'000, 300'000}, {}, {}};
+    pass.tiles->counts = RayCounts{100, 50};
+    pass.tiles->stage_seconds = FastTimes{0.125, 0.25, 0.5, 0.75};
+    pass.build_wall_seconds = {0.25, 0.25};
+    pass.trace_wall_seconds = {0.5, 1.5};
+    return report;
+}
+
+TEST(Report, PrintsWhatTheTileTracerTells) {
+    const std::string text = report_text(parse({"--profile=fast"}), tile_example());
+    for (const char* part :
+         {"--profile=fast --tracer=tiles", "which was measured faster (--type chooses)",
+          "depth 5, 70 voxels with items, 90 nodes, 110 references, 2.5 MB",
+          "2 threads, avx2, 0.3 MB of tables", "100 primary and 50 shadow rays\n",
+          "tables 0.125000 s, primary rays 0.250000 s, shadow rays 0.500000 s, shading 0.750000 s",
+          "wall       build 0.250000 s, trace 1.000000 s"})
+        EXPECT_TRUE(contains(text, part)) << part << "\n" << text;
+    for (const char* part : {"intersection tests", "voxel searches", "none: uniform"})
+        EXPECT_FALSE(contains(text, part)) << part << "\n" << text;
+    EXPECT_FALSE(contains(report_text(parse({"--profile=fast", "--type=uniform"}), tile_example()),
+                          "measured"));
+}
+
+TEST(Report, JsonOfTheTileTracerLeavesOutWhatHasNoMeaning) {
+    const auto json = nlohmann::json::parse(report_json(parse({"--profile=fast"}), tile_example()));
+    EXPECT_EQ(json["tiles"]["threads"], 2);
+    EXPECT_EQ(json["tiles"]["isa"], "avx2");
+    EXPECT_EQ(json["tiles"]["structure_bytes"], 2'500'000);
+    EXPECT_EQ(json["tiles"]["table_bytes"], 300'000);
+    EXPECT_EQ(json["counts"]["shadow_rays"], 50);
+    EXPECT_FALSE(json["counts"].contains("voxel_searches"));
+    EXPECT_FALSE(json.contains("tree"));
+    EXPECT_EQ(json["stage_seconds"]["shading"], 0.75);
+    EXPECT_EQ(json["trace_wall_seconds"], (std::vector<double>{0.5, 1.5}));
+    EXPECT_EQ(json["profile"]["tracer"], "tiles");
+    EXPECT_TRUE(json["profile"]["walk"].is_null());
 }
 
 TEST(Paths, ThePictureStandsBesideTheScene) {

@@ -102,6 +102,28 @@ TEST(Study, EveryAnswerWorthComparingIsThereForBothProfiles) {
     }
 }
 
+TEST(Study, TheTileTracerIsThereOnBothOctrees) {
+    std::set<OctreeType> types;
+    for (const StudyCase& what : study_cases(exact_profile())) {
+        EXPECT_EQ(what.profile == "fast", what.answers.tracer == TracerChoice::kTiles);
+        if (what.profile == "fast") types.insert(what.answers.type);
+    }
+    EXPECT_EQ(types.size(), 2u);
+}
+
+TEST(Study, WhatTheTileTracerDoesNotTellIsNull) {
+    StudyRow tiles = row(0.5, 0);
+    tiles.what = {"fast", "", fast_profile()};
+    StudyRow serial = row(0.5, 0);
+    serial.wrong_primitives = 3;
+    serial.wrong_shadows = 0;
+    const auto json = nlohmann::json::parse(study_json(Options(), "s.x3d", {serial, tiles}));
+    EXPECT_EQ(json["rows"][0]["wrong_primitives"], 3);
+    EXPECT_EQ(json["rows"][0]["wrong_shadows"], 0);
+    EXPECT_TRUE(json["rows"][1]["wrong_primitives"].is_null());
+    EXPECT_TRUE(json["rows"][1]["wrong_shadows"].is_null());
+}
+
 TEST(Study, TheTypeGivenIsTheOneThatCasesChange) {
     Profile given = exact_profile();
     given.type = OctreeType::kNonuniform;
@@ -113,6 +135,7 @@ TEST(Study, TheTypeGivenIsTheOneThatCasesChange) {
         changed += changes;
         EXPECT_EQ(what.change.find("nonuniform"), std::string::npos);
         EXPECT_EQ(what.answers.type, changes ? OctreeType::kUniform : OctreeType::kNonuniform);
+        if (what.answers.tracer == TracerChoice::kTiles) continue;  // has no other midpoint
         EXPECT_EQ(what.answers.midpoint, MidpointChoice::kSweep);
         EXPECT_EQ(what.answers.max_objects, std::size_t{3});
     }

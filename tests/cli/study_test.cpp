@@ -53,6 +53,10 @@ TEST_F(Study, TheExactRowsAreRightAndThePublishedBiasLosesTheShadowsOfASmallScen
         EXPECT_EQ(row["rms"], 0) << change;
         EXPECT_TRUE(row["psnr_db"].is_null()) << change;
     }
+    for (const char* change : {"", "--type=nonuniform"}) {
+        EXPECT_EQ(rows.at({"fast", change})["max_difference"], 0) << change;
+        EXPECT_TRUE(rows.at({"fast", change})["psnr_db"].is_null()) << change;
+    }
     // The sphere covers some percent of the 1728 pixels and shadows about as many.
     for (const auto& name : {std::pair<std::string, std::string>{"thesis", ""},
                              std::pair<std::string, std::string>{"exact", "--bias=0.04"}}) {

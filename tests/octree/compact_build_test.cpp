@@ -216,6 +216,7 @@ TEST(CompactBuild, ReferencesStayWithinTheirLimit) {
         for (const double limit : {1.0, 3.0, 20.0}) {
             CompactBuildOptions limited = options(rule);
             limited.max_references_per_item = limit;
+            limited.free_references = 0;
             const CompactOctree tree = build_compact_octree(boxes, limited);
             EXPECT_LE(static_cast<double>(tree.items.size()), limit * 6000);
             if (rule == CutRule::kSpatial) {
@@ -233,6 +234,7 @@ TEST(CompactBuild, ItemsThatCutsDoNotPartTakeNothingFromOthers) {
     for (const CutRule rule : kRules) {
         CompactBuildOptions limited = options(rule);
         limited.max_references_per_item = 3;
+        limited.free_references = 0;
         const CompactOctree tree = build_compact_octree(boxes, limited);
         for (const Leaf& leaf : leaves_of(tree)) {
             if (!leaf.items.empty() && leaf.items.front() >= 2000) {

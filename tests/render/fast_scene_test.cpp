@@ -312,6 +312,23 @@ TEST(FastScene, TheTreeDoesNotDependOnTheNumberOfThreads) {
     }
 }
 
+TEST(FastScene, TrianglesAsLargeAsTheSceneAreParted) {
+    // One cut does not pay: each of them touches more than half of the octants.
+    Random random(10);
+    TriangleMesh mesh;
+    for (std::uint32_t i = 0; i < 3000; ++i) {
+        for (int k = 0; k < 3; ++k) mesh.positions.push_back(random.point(1));
+        mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+    }
+    Scene scene;
+    scene.objects.push_back({mesh});
+    const Primitives primitives = flatten(scene, LeafContent::kPrimitives);
+    for (const OctreeType type : kTypes) {
+        const FastScene fast(scene, primitives, type, 1);
+        for (const Leaf& leaf : leaves_of(fast.octree())) EXPECT_LT(leaf.items.size(), 1000U);
+    }
+}
+
 TEST(FastScene, AnEmptySceneIsAnEmptyLeaf) {
     const Scene scene;
     const Primitives primitives = flatten(scene, LeafContent::kPrimitives);

@@ -45,7 +45,7 @@ class ShadedPicture {
         const CameraTables tables(fast_, camera_, isa);
         PrimaryJob job{fast_, camera_, tables, referee_, true, {}};
         const PrimaryStage primary(isa);
-        ShadingStage stage(fast_, camera_, isa, redo_exactly);
+        ShadingStage stage(fast_, camera_, tables, isa, redo_exactly);
         Image image(size_.width, size_.height);
         const auto tile = std::make_unique<Tile>();
         Shaded result;

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "nuvo/render/fast.h"
 #include "nuvo/render/profile.h"
 #include "nuvo/scene/x3d.h"
 
@@ -19,6 +20,9 @@ struct Choice {
 template <typename E>
 Choice(const char*, E) -> Choice<E>;  // clang 14 does not deduce it for an aggregate
 
+inline constexpr std::array kProfiles{Choice{"exact", &exact_profile},
+                                      Choice{"thesis", &thesis_profile},
+                                      Choice{"fast", &fast_profile}};
 inline constexpr std::array kOctreeTypes{Choice{"uniform", OctreeType::kUniform},
                                          Choice{"nonuniform", OctreeType::kNonuniform}};
 inline constexpr std::array kMidpoints{Choice{"spatial", MidpointChoice::kSpatial},
@@ -33,6 +37,11 @@ inline constexpr std::array kWalks{Choice{"hash", WalkChoice::kHash},
 inline constexpr std::array kPrecisions{Choice{"float", Precision::kFloat},
                                         Choice{"double", Precision::kDouble},
                                         Choice{"exact", Precision::kExact}};
+inline constexpr std::array kTracers{Choice{"serial", TracerChoice::kSerial},
+                                     Choice{"tiles", TracerChoice::kTiles}};
+inline constexpr std::array kInstructionSets{
+    Choice{"avx512", InstructionSet::kAvx512}, Choice{"avx2", InstructionSet::kAvx2},
+    Choice{"sse4", InstructionSet::kSse4}, Choice{"sse2", InstructionSet::kSse2}};
 inline constexpr std::array kHeadlights{Choice{"auto", x3d::Headlight::kAuto},
                                         Choice{"on", x3d::Headlight::kOn},
                                         Choice{"off", x3d::Headlight::kOff}};

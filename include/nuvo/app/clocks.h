@@ -27,15 +27,17 @@ class ProcessStopwatch {
     std::int64_t wall_ns_;
 };
 
-/// A fine clock for one stage: processor time of the calling thread, in nanoseconds, which other
-/// programs on the machine disturb least.
+/// A fine clock for one stage: processor time of all threads, in nanoseconds, which other programs
+/// on the machine disturb least.
 class StageStopwatch {
   public:
     StageStopwatch();
     double seconds() const;
+    double wall_seconds() const;
 
   private:
     std::int64_t start_ns_;
+    std::int64_t wall_start_ns_;
 };
 
 }  // namespace nuvo::app

@@ -2,6 +2,7 @@
 
 #include <concepts>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,6 +31,15 @@ class JsonWriter {
         literal(std::to_string(number));
     }
     void value(const std::vector<double>& numbers);
+    /// null for none.
+    template <typename T>
+    void value(const std::optional<T>& content) {
+        if (content) {
+            value(*content);
+        } else {
+            null();
+        }
+    }
 
     template <typename T>
     void member(std::string_view name, const T& content) {

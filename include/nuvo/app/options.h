@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "nuvo/render/fast.h"
 #include "nuvo/render/profile.h"
 #include "nuvo/scene/camera.h"
 #include "nuvo/scene/x3d.h"
@@ -15,6 +16,7 @@ inline constexpr int kMaxSidePixels = 16384;           ///< unless --max-side sa
 inline constexpr int kLargestMaxSide = 32768;          ///< a BMP file is smaller than 4 GiB
 inline constexpr std::size_t kLargestMaxDepth = 8192;  ///< what the stack bears
 inline constexpr int kMaxRepetitions = 1'000'000;
+inline constexpr int kMaxThreads = 1024;
 
 /// What the user typed, checked. Paths are as typed.
 struct Options {
@@ -23,6 +25,9 @@ struct Options {
     Resolution resolution;
     std::string profile_name = "exact";  ///< the bundle that `profile` started from
     Profile profile;                     ///< with the single answers put in
+    bool type_given = false;             ///< else the octree is the profile's own
+    int threads = 1;                     ///< of the tile tracer; 0: one for each core
+    InstructionSet isa = InstructionSet::kBest;
     x3d::Headlight headlight = x3d::Headlight::kAuto;
     std::string viewpoint;  ///< empty: the first
     x3d::Limits limits;

@@ -9,6 +9,7 @@
 #include "nuvo/app/options.h"
 #include "nuvo/image/compare.h"
 #include "nuvo/octree/octree.h"
+#include "nuvo/render/fast.h"
 #include "nuvo/render/render.h"
 #include "nuvo/scene/scene.h"
 
@@ -36,13 +37,31 @@ struct TreeFigures {
 };
 TreeFigures figures(const Octree& octree);
 
+/// What the tile tracer has in place of TreeFigures and TraceCounts.
+struct TileFigures {
+    int threads = 1;
+    InstructionSet isa = InstructionSet::kBest;
+    int depth = 0;
+    std::size_t voxels = 0;  ///< leaves; it keeps none that are empty
+    std::size_t nodes = 0;
+    std::size_t references = 0;
+    FastMemory memory;
+    std::optional<RayCounts> counts;
+    std::optional<FastTimes> stage_seconds;  ///< of one picture
+};
+/// All but the last two.
+TileFigures figures(const FastTracer& tracer, const FastOptions& options);
+
 /// One way of rendering the scene: its tree, its counts and every time taken.
 struct Pass {
-    std::string name;  ///< "uniform", "nonuniform" or "brute force"
+    std::string name;  ///< "uniform", "nonuniform", "serial" or "brute force"
     std::optional<TreeFigures> tree;
     std::optional<TraceCounts> counts;
-    std::vector<double> build_seconds;  ///< one a repetition
+    std::optional<TileFigures> tiles;
+    std::vector<double> build_seconds;  ///< one a repetition, summed over the threads
     std::vector<double> trace_seconds;
+    std::vector<double> build_wall_seconds;
+    std::vector<double> trace_wall_seconds;
     ProcessTimes process;  ///< around all repetitions
 };
 
@@ -67,6 +86,8 @@ struct Report {
     std::optional<std::size_t> hits;
 };
 
+/// Whether the octree's type is the profile's choice of the faster one.
+bool type_is_measured(const Options& options);
 /// Every answer of a profile as the flags that give it.
 std::string profile_flags_text(const Options& options);
 /// The report for people, some lines.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -39,9 +40,11 @@ struct StudyRow {
     std::vector<double> trace_seconds;
     MedianInterval trace;
     double build_median = 0;
-    std::size_t wrong_primitives = 0;  ///< pixels that show another primitive
-    std::size_t wrong_shadows = 0;     ///< pixels of the right primitive, lit by other lights
-    image::Difference difference;      ///< of the pictures
+    /// Pixels that show another primitive, and those of the right primitive, lit by other lights;
+    /// none for the tile tracer, which tells colors only.
+    std::optional<std::size_t> wrong_primitives;
+    std::optional<std::size_t> wrong_shadows;
+    image::Difference difference;  ///< of the pictures
     bool on_frontier = false;
 };
 

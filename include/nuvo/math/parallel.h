@@ -7,6 +7,7 @@ namespace nuvo {
 
 /// Calls work(index, thread) for every index below `count`, on up to `threads` threads at a time
 /// (the caller's among them) that take the next index from a shared counter; 0 <= thread < threads.
+/// Where the system refuses threads there are fewer.
 /// Throws what the first failing call threw, when all threads have ended.
 void for_each_index(int threads, std::size_t count,
                     const std::function<void(std::size_t index, int thread)>& work);

@@ -44,6 +44,8 @@ struct CompactOctree {
     std::vector<CompactNode> nodes;
     std::vector<std::uint32_t> items;  ///< of the leaves' runs; each run ascends
 
+    int depth() const;               ///< levels that there are, the root's included
+    std::size_t leaf_count() const;  ///< non-empty voxels
     /// Bytes of nodes and references.
     std::size_t memory_bytes() const {
         return nodes.size() * sizeof(CompactNode) + items.size() * sizeof(std::uint32_t);

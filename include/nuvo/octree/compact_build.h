@@ -41,8 +41,10 @@ struct CompactBuildOptions {
     CompactCosts costs;
     OctantTest overlaps;  ///< empty: the boxes decide
     int threads = 1;      ///< >= 1; the tree does not depend on it
-    /// What the tree may hold for each item; a voxel's share is in proportion to its items.
+    /// What the tree may hold for each item, but `free_references` in any case; a voxel's share is
+    /// in proportion to its items.
     double max_references_per_item = 8;
+    double free_references = 0x1p21;  ///< 8 megabytes
 };
 
 /// The octree of the items with these boxes (none empty; all together 2^-30 to 2^30 wide, best 1

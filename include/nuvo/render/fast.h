@@ -8,6 +8,7 @@
 
 #include "nuvo/image/image.h"
 #include "nuvo/math/ray.h"
+#include "nuvo/octree/compact.h"
 #include "nuvo/render/primitives.h"
 #include "nuvo/render/profile.h"
 #include "nuvo/render/render.h"
@@ -36,12 +37,18 @@ struct FastMemory {
     std::size_t tables = 0;     ///< per camera and light, made anew for each picture
 };
 
-/// Processor time by stage, in seconds, summed over the threads.
+/// Time by stage on the clock of the wall, in seconds, summed over the threads.
 struct FastTimes {
     double tables = 0;
     double primary = 0;
     double shadow = 0;
     double shading = 0;
+};
+
+/// Rays of one picture as the exact profile traces them.
+struct RayCounts {
+    std::uint64_t primary_rays = 0;
+    std::uint64_t shadow_rays = 0;
 };
 
 /// Renders what the exact profile renders, to the byte, by coherent groups of rays in vector
@@ -59,7 +66,12 @@ class FastTracer {
     /// The closest hit of each ray, as closest_hits() answers it.
     std::vector<RayAnswer> closest_hits(std::span<const Ray> rays) const;
 
+    /// Counted in a run of its own, by the exact profile's decisions, so that it does not depend on
+    /// what the float stages leave open.
+    RayCounts count_rays(Resolution resolution) const;
+
     FastMemory memory() const;
+    const CompactOctree& octree() const;
 
   private:
     struct State;

@@ -13,10 +13,14 @@ enum class WalkChoice { kHash, kDescent };
 enum class Precision { kFloat, kDouble, kExact };
 /// kThesis: the costs of thesis 5.4.1; kCalibrated: constant, measured costs.
 enum class CostChoice { kThesis, kCalibrated };
+/// kSerial: one ray at a time through an Octree, all else as chosen. kTiles: FastTracer, which
+/// shows what the exact profile shows and whose other answers but the type are its own.
+enum class TracerChoice { kSerial, kTiles };
 
 /// One answer to every question that decides what is built, walked and computed. A named profile is
 /// nothing but a value of this type.
 struct Profile {
+    TracerChoice tracer = TracerChoice::kSerial;
     OctreeType type = OctreeType::kUniform;
     MidpointChoice midpoint = MidpointChoice::kMlslSbplx;  ///< used by non-uniform trees only
     CostChoice costs = CostChoice::kCalibrated;
@@ -36,5 +40,7 @@ struct Profile {
 Profile thesis_profile();
 /// The thesis' structure with right numbers: the default and the reference of every other tracer.
 Profile exact_profile();
+/// The exact profile's pictures in the least time: tiles, and the octree that was measured faster.
+Profile fast_profile();
 
 }  // namespace nuvo

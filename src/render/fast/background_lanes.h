@@ -25,14 +25,9 @@ struct PixelColors {
     Floats error;
 };
 
-/// The sine of the rays' height, d_y / |d|.
+/// The sine of the rays' height, d_y / |d|, within ShadingRays::sine_error.
 HWY_INLINE Floats sine_of_height(const BlockDirections& directions) {
-    Floats square(0.0F);
-    for (int axis = 0; axis < 3; ++axis) {
-        const Floats d = directions.at(axis);
-        square = mul_add(d, d, square);
-    }
-    return directions.at(1) * inverse_sqrt(square);
+    return directions.at(1) * inverse_sqrt(directions.square());
 }
 
 /// The colors of one list of bands, `angle` from its pole within `angle_error`. A lane whose bounds
@@ -61,10 +56,9 @@ HWY_INLINE PixelColors banded(const std::vector<BackgroundBand>& bands, const Fl
 }
 
 HWY_INLINE PixelColors gradient(const ShadingBackground& background, const Floats& y,
-                                float relative) {
+                                float sine_error) {
     const Floats one(1.0F);
-    // d's error twice, and 4.7 u of the root and the product; then angles up to pi.
-    const Floats error(2 * relative + 4.8F * kUnit);
+    const Floats error(sine_error);  // then those of angles up to pi
     const Floats margin(kArcError + 8 * kUnit);
     const Floats least = arc_cosine(min(y + error, one)) - margin;
     const Floats most = arc_cosine(max(y - error, -one)) + margin;
@@ -87,7 +81,7 @@ HWY_INLINE PixelColors background_colors(const ShadingTables& tables,
                                          const BlockDirections& directions) {
     const ShadingBackground& background = tables.background;
     if (background.kind == ShadingBackground::Kind::kGradient)
-        return gradient(background, sine_of_height(directions), tables.bounds.direction_relative);
+        return gradient(background, sine_of_height(directions), tables.rays.sine_error);
     PixelColors out;
     out.error = Floats(background.error);
     const bool blend = background.kind == ShadingBackground::Kind::kBlend;

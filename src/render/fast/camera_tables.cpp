@@ -27,6 +27,7 @@ CameraSphere make_sphere(const Point3& eye, double scale, const Point3& center, 
     const double gap = std::sqrt(ff) - r;
     CameraSphere out{};
     for (int axis = 0; axis < 3; ++axis) out.from[axis] = from[axis];
+    out.exact_radius = r;
     out.radius = static_cast<float>(r);
     out.inverse_power = static_cast<float>(1 / power);
     out.power_error = rounded_up(2 * error / std::fabs(power) + 4 * kFloatRoundoff);
@@ -52,7 +53,8 @@ CameraTables::CameraTables(const FastScene& fast, const CameraRays& camera, Inst
     const double direction = CameraExtent(camera).direction;
     spheres.reserve(fast.slot_end() - fast.triangle_end());
     for (Slot slot = fast.triangle_end(); slot < fast.slot_end(); ++slot) {
-        const Shape& shape = scene.objects[fast.source(slot).object].shape;
+        const Object& object = scene.objects[fast.source(slot).object];
+        const Shape& shape = object.shape;
         if (const auto* sphere = std::get_if<Sphere>(&shape)) {
             spheres.push_back(make_sphere(eye, scale, sphere->center, sphere->radius, direction));
         } else {
@@ -61,6 +63,8 @@ CameraTables::CameraTables(const FastScene& fast, const CameraRays& camera, Inst
             spheres.push_back(make_sphere(eye, scale, box.center(), radius, direction));
             spheres.back().exactly = true;
         }
+        spheres.back().material = object.material;
+        spheres.back().solid = object.solid;
     }
 }
 

@@ -28,13 +28,16 @@ inline constexpr int kCameraRoundings = 12;
 /// A sphere, or the sphere around an ellipsoid, seen from the camera.
 struct alignas(64) CameraSphere {
     double from[3];       ///< f: from the centre to the camera, local
+    double exact_radius;  ///< r in double
     float radius;         ///< r
     float inverse_power;  ///< 1 / (f.f - r^2); its sign tells which root is hit
     float power_error;    ///< relative, of inverse_power
     float nearest;        ///< bounds 1 / (least distance from the camera) from above; inf: inside
     float distance;       ///< |f|, rounded up
     float cross_error;    ///< bounds the error of f x d in double on each axis, over the picture
-    bool exactly;         ///< floats cannot tell: an ellipsoid, or the camera is at the surface
+    std::uint32_t material;  ///< index into Scene::materials
+    bool solid;
+    bool exactly;  ///< floats cannot tell: an ellipsoid, or the camera is at the surface
 };
 static_assert(sizeof(CameraSphere) == 64);
 

@@ -26,22 +26,25 @@ namespace nuvo::HWY_NAMESPACE {
 class BlockDirections {
   public:
     HWY_INLINE BlockDirections(const ShadingTables& tables, const Tile& tile, int b)
-        : tables_(tables),
-          first_(
-              tables.camera.direction(tables.camera.center_x(tile.x + lane_x(b * kBlockLanes)),
-                                      tables.camera.center_y(tile.y + lane_y(b * kBlockLanes)))) {}
+        : rays_(tables.rays),
+          x_(static_cast<std::size_t>(tile.x + lane_x(b * kBlockLanes))),
+          y_(static_cast<std::size_t>(tile.y + lane_y(b * kBlockLanes)) * kBlockSide) {}
 
-    /// Of the block's first lane.
-    const Vector3& first() const { return first_; }
-    /// Within ShadingBounds::direction_error, all axes together.
+    /// Within ShadingRays::error, all axes together.
     HWY_INLINE Floats at(int axis) const {
-        return Floats(static_cast<float>(first_[axis])) +
-               Floats::load(tables_.lane_direction[axis]);
+        return Floats::load_repeated(rays_.column[axis].data() + x_) +
+               Floats::load(rays_.row[axis].data() + y_);
+    }
+    /// d.d
+    HWY_INLINE Floats square() const {
+        return Floats::load_repeated(rays_.column_square.data() + x_) +
+               Floats::load(rays_.row_square.data() + y_);
     }
 
   private:
-    const ShadingTables& tables_;
-    Vector3 first_;
+    const ShadingRays& rays_;
+    std::size_t x_;
+    std::size_t y_;
 };
 
 /// The steps of a block's lanes to the right and down.
@@ -88,7 +91,9 @@ class CurvedLanes {
           directions_(directions),
           block_(b),
           center_x_(static_cast<float>(tables.camera.center_x(tile.x + lane_x(first_)))),
-          center_y_(static_cast<float>(tables.camera.center_y(tile.y + lane_y(first_)))) {}
+          center_y_(static_cast<float>(tables.camera.center_y(tile.y + lane_y(first_)))),
+          first_direction_(tables.camera.direction(static_cast<double>(center_x_),
+                                                   static_cast<double>(center_y_))) {}
 
     HWY_NOINLINE void fill(std::uint32_t lanes) {
         const Ints slots = Ints::load(reinterpret_cast<const std::int32_t*>(tile_.slot) + first_);
@@ -97,24 +102,12 @@ class CurvedLanes {
             const std::uint32_t same =
                 (slots == Ints(static_cast<std::int32_t>(slot))).bits() & lanes;
             lanes &= ~same;
-            const PrimitiveSource& source = scene_.source(slot);
-            const Object& object = scene_.scene().objects[source.object];
             lanes_ = RayMask::from_bits(same);
             bits_ = same;
-            if (const auto* mesh = std::get_if<TriangleMesh>(&object.shape)) {
-                fill_triangle(*mesh, source.object, source.triangle, slot);
-                continue;
-            }
-            if (!tables_.uniform) {
-                const SurfaceWord word = tables_.material_words[object.material];
-                Ints(static_cast<std::int32_t>(word))
-                    .store(reinterpret_cast<std::int32_t*>(scratch_.word) + first_,
-                           mask_for<std::int32_t>(lanes_));
-            }
-            if (const auto* sphere = std::get_if<Sphere>(&object.shape))
-                fill_sphere(*sphere, object.solid);
+            if (slot < scene_.triangle_end())
+                fill_triangle(slot);
             else
-                fill_ellipsoid(object.solid);
+                fill_round(slot, tables_.spheres[slot - scene_.triangle_end()]);
         }
         if (smooth_bits_ != 0) finish_smooth();
     }
@@ -128,7 +121,7 @@ class CurvedLanes {
         return std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z);
     }
     HWY_INLINE Doubles affine_dot(const Vector3& v) const {
-        return affine(dot(v, directions_.first()), dot(v, tables_.camera.right),
+        return affine(dot(v, first_direction_), dot(v, tables_.camera.right),
                       dot(v, tables_.camera.down));
     }
     // The lanes that are not `known` get NaN, and the referee.
@@ -154,18 +147,19 @@ class CurvedLanes {
     // that its float is good to the last digit. In float |m| <= |d|, so d x m has the roundings of
     // d and m and 3 more; s has its own, half of its square's and the root's 3.2, with d and the
     // product 5.2; 1 / d.d, its product and the sum 3: all that is kSphereNormalError in units.
-    HWY_INLINE void fill_sphere(const Sphere& sphere, bool solid) {
+    HWY_INLINE void fill_sphere(const CameraSphere& sphere) {
         constexpr double kCrossError = 0x1p-49;  // 8 roundings of f x d
         constexpr double kDigits = 0x1p28;
         constexpr double kSideError = 0x1p-48;
         constexpr float kSphereNormalError = 14 * kUnit;
-        const Vector3 f = (scene_.scene().camera.position - sphere.center) / sphere.radius;
+        const Vector3 from{sphere.from[0], sphere.from[1], sphere.from[2]};
+        const Vector3 f = from * (1 / sphere.exact_radius);
         const double power = dot(f, f);
         const bool inside = power < 1;
         const bool sure = std::fabs(power - 1) > kSideError * (power + 1);
         const double q = kCrossError * (1 + norm1(f));
         set_up_rays();
-        const Vector3 first = cross(f, directions_.first());
+        const Vector3 first = cross(f, first_direction_);
         const Vector3 right = cross(f, tables_.camera.right);
         const Vector3 down = cross(f, tables_.camera.down);
         Doubles rest = rays_.square;
@@ -176,14 +170,14 @@ class CurvedLanes {
             m[i] = floats_from(value);
         }
         const Floats square = floats_from(rest);
-        const auto longest = static_cast<double>(tables_.bounds.direction_longest);
+        const auto longest = static_cast<double>(tables_.rays.longest);
         const auto least = static_cast<float>(kDigits * q * longest * longest);
         const RayMask known = square > Floats(sure ? least : kInfinity);
         Floats s = square * inverse_sqrt(square);
         if (inside) s = -s;
-        const Point3 center = scene_.frame().local(sphere.center);
-        const auto radius = static_cast<float>(sphere.radius * scene_.frame().scale);
-        const float turn = inside && !solid ? -1 : 1;
+        const Point3 center = tables_.camera.origin - from;
+        const float radius = sphere.radius;
+        const float turn = inside && !sphere.solid ? -1 : 1;
         Floats normal[3];
         Floats point[3];
         for (int i = 0; i < 3; ++i) {
@@ -206,7 +200,7 @@ class CurvedLanes {
         if (rays_.ready) return;
         rays_.ready = true;
         rays_.square = Doubles(0.0);
-        const Vector3& first = directions_.first();
+        const Vector3& first = first_direction_;
         for (int i = 0; i < 3; ++i) {
             const Doubles d = affine(first[i], tables_.camera.right[i], tables_.camera.down[i]);
             rays_.square = mul_add(d, d, rays_.square);
@@ -227,18 +221,34 @@ class CurvedLanes {
         const Floats error = Floats::load(tile_.round_error + first_) * Floats(kRootOf3);
         RayMask known = lanes_;
         if (!solid) {
-            const float longest = tables_.bounds.direction_longest;
+            const float longest = tables_.rays.longest;
             known = abs(along) > mul_add(error, Floats(longest), Floats(8 * kUnit * longest));
             for (Floats& n : normal) n = select(along > Floats(0.0F), -n, n);
         }
         store_normal(normal, known, error);
     }
 
-    void fill_triangle(const TriangleMesh& mesh, std::uint32_t object, std::uint32_t index,
-                       Slot slot) {
-        if (!mesh.colors.empty()) fill_color(mesh, index);
-        if (!mesh.normals.empty())
-            add_smooth(tables_.smooth[slot - tables_.smooth_offsets[object]]);
+    HWY_INLINE void fill_triangle(Slot slot) {
+        const SurfaceWord word = tables_.triangle_words[slot];
+        const PrimitiveSource& source = scene_.source(slot);
+        if ((word & kColoredFlag) != 0)
+            fill_color(std::get<TriangleMesh>(scene_.scene().objects[source.object].shape),
+                       source.triangle);
+        if ((word & kSmoothFlag) != 0)
+            add_smooth(tables_.smooth[slot - tables_.smooth_offsets[source.object]]);
+    }
+
+    HWY_INLINE void fill_round(Slot slot, const CameraSphere& sphere) {
+        if (!tables_.uniform) {
+            const SurfaceWord word = tables_.material_words[sphere.material];
+            Ints(static_cast<std::int32_t>(word))
+                .store(reinterpret_cast<std::int32_t*>(scratch_.word) + first_,
+                       mask_for<std::int32_t>(lanes_));
+        }
+        if (slot < scene_.sphere_end())
+            fill_sphere(sphere);
+        else
+            fill_ellipsoid(sphere.solid);
     }
 
     // The normal's direction in these lanes; its length waits for those of other triangles.
@@ -288,7 +298,7 @@ class CurvedLanes {
         const Doubles y = affine_dot(cross(e1, from)) * inverse;
         const double edges = norm1(e1) + norm1(e2);
         const double noise = kTripleError * (norm1(from) + edges) * edges *
-                             static_cast<double>(tables_.bounds.direction_longest);
+                             static_cast<double>(tables_.rays.longest);
         const RayMask known =
             abs(floats_from(s)) >
             Floats(static_cast<float>(kWeightDigits * noise) + std::numeric_limits<float>::min());
@@ -320,6 +330,7 @@ class CurvedLanes {
     // X and Y of the block's first lane.
     float center_x_;
     float center_y_;
+    Vector3 first_direction_;
     Floats smooth_[3];
     Floats smooth_error_;
     std::uint32_t smooth_bits_ = 0;

@@ -2,9 +2,11 @@
 
 #include <cmath>
 
+#include "count.h"
 #include "dispatch.h"
 #include "exact_kernel.h"
 #include "frame.h"
+#include "single_ray.h"
 
 namespace nuvo {
 namespace {
@@ -34,6 +36,7 @@ struct FastTracer::State {
     FastScene fast;
     Bounds3 triangles;
     std::size_t table_bytes = 0;
+    std::unique_ptr<SingleRays> single;  // made when rays are first asked for
 };
 
 FastTracer::FastTracer(const Scene& scene, const Primitives& primitives, const FastOptions& options)
@@ -55,14 +58,29 @@ Image FastTracer::render(Resolution resolution, FastTimes* times) {
 }
 
 std::vector<RayAnswer> FastTracer::closest_hits(std::span<const Ray> rays) const {
-    const FastScene& fast = state_->fast;
-    const Profile profile = exact_profile();
-    const Octree octree = build_tree(fast.scene(), fast.primitives(), profile);
-    return nuvo::closest_hits(fast.scene(), fast.primitives(), &octree, profile, rays);
+    std::unique_ptr<SingleRays>& single = state_->single;
+    if (!single)
+        single = std::make_unique<SingleRays>(state_->fast, state_->options.isa,
+                                              state_->options.redo_exactly);
+    return single->closest_hits(rays);
 }
 
+RayCounts FastTracer::count_rays(Resolution resolution) const {
+    const FastScene& fast = state_->fast;
+    if (is_near(fast.frame(), fast.scene().camera))
+        return nuvo::count_rays(fast, state_->triangles, state_->options.isa, resolution);
+    const Profile profile = exact_profile();
+    const Octree octree = build_tree(fast.scene(), fast.primitives(), profile);
+    const TraceCounts counts =
+        count_events(fast.scene(), fast.primitives(), octree, profile, resolution);
+    return {counts.primary_rays, counts.shadow_rays};
+}
+
+const CompactOctree& FastTracer::octree() const { return state_->fast.octree(); }
+
 FastMemory FastTracer::memory() const {
-    return {state_->fast.octree().memory_bytes(), state_->table_bytes};
+    const std::size_t rays = state_->single ? state_->single->memory_bytes() : 0;
+    return {state_->fast.octree().memory_bytes() + rays, state_->table_bytes};
 }
 
 }  // namespace nuvo

@@ -1,12 +1,11 @@
 #include "frame.h"
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
-#include <exception>
-#include <thread>
+#include <optional>
 
 #include "camera_tables.h"
+#include "nuvo/math/parallel.h"
 #include "primary.h"
 #include "shading.h"
 #include "shadow.h"
@@ -18,6 +17,9 @@
 
 namespace nuvo {
 namespace {
+
+// The counter is locked for each few tiles: a lock waits for all stores to the picture.
+constexpr std::size_t kTilesAtOnce = 4;
 
 double seconds_now() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
@@ -47,17 +49,24 @@ struct Frame::Tables {
            Resolution resolution)
         : rays(scene.scene().camera, resolution, scene.frame()),
           triangles(triangle_box),
-          camera(scene, rays, options.isa),
-          shadow(scene, options.isa),
-          shading(scene, rays, options.isa, options.redo_exactly),
-          tiles(tiles_in_order(resolution)) {}
+          tiles(tiles_in_order(resolution)) {
+        // Those of the lights take about as long as all others, of which each needs the one before.
+        for_each_index(options.threads, 2, [&](std::size_t part, int) {
+            if (part == 0) {
+                shadow.emplace(scene, options.isa);
+            } else {
+                camera.emplace(scene, rays, options.isa);
+                shading.emplace(scene, rays, *camera, options.isa, options.redo_exactly);
+            }
+        });
+    }
 
     CameraRays rays;
     Bounds3 triangles;
-    CameraTables camera;
-    ShadowTables shadow;
-    ShadingStage shading;  // copied by each thread; the copies share its tables
     std::vector<TilePlace> tiles;
+    std::optional<ShadowTables> shadow;
+    std::optional<CameraTables> camera;
+    std::optional<ShadingStage> shading;  // copied by each thread; the copies share its tables
 };
 
 /// One thread's stages.
@@ -66,10 +75,10 @@ class Frame::Worker {
     Worker(const FastScene& scene, const Tables& tables, const FastOptions& options)
         : scene_(scene),
           referee_(scene, tables.rays, tables.triangles),
-          job_{scene, tables.rays, tables.camera, referee_, options.redo_exactly, {}},
+          job_{scene, tables.rays, *tables.camera, referee_, options.redo_exactly, {}},
           primary_(options.isa),
-          shadow_(tables.shadow, options.isa, options.redo_exactly),
-          shading_(tables.shading) {}
+          shadow_(*tables.shadow, options.isa, options.redo_exactly),
+          shading_(*tables.shading) {}
 
     void trace(TilePlace place, Image& image, FastTimes* times) {
         FastTimes spent;
@@ -126,35 +135,26 @@ Frame::Frame(const FastScene& scene, const Bounds3& triangles, const FastOptions
 Frame::~Frame() = default;
 
 std::size_t Frame::memory_bytes() const {
-    return tables_->camera.memory_bytes() + tables_->shadow.memory_bytes() +
-           tables_->shading.tables().memory_bytes();
+    return tables_->camera->memory_bytes() + tables_->shadow->memory_bytes() +
+           tables_->shading->tables().memory_bytes();
 }
 
 Image Frame::render(FastTimes* times) {
     const Resolution size = tables_->rays.resolution;
     Image image(size.width, size.height);
-    std::atomic<std::size_t> next{0};
+    const std::vector<TilePlace>& tiles = tables_->tiles;
     const auto threads = static_cast<std::size_t>(options_.threads);
     std::vector<FastTimes> spent(threads);
-    std::vector<std::exception_ptr> failures(threads);
-    const auto work = [&](std::size_t thread) {
-        try {
-            Worker worker(scene_, *tables_, options_);
-            for (;;) {
-                const std::size_t i = next.fetch_add(1, std::memory_order_relaxed);
-                if (i >= tables_->tiles.size()) return;
-                worker.trace(tables_->tiles[i], image, times ? &spent[thread] : nullptr);
-            }
-        } catch (...) {
-            failures[thread] = std::current_exception();
-        }
-    };
-    std::vector<std::thread> others;
-    for (std::size_t i = 1; i < threads; ++i) others.emplace_back(work, i);
-    work(0);
-    for (std::thread& other : others) other.join();
-    for (const std::exception_ptr& failure : failures)
-        if (failure) std::rethrow_exception(failure);
+    std::vector<std::unique_ptr<Worker>> workers(threads);  // made by their threads
+    for_each_index(options_.threads, (tiles.size() + kTilesAtOnce - 1) / kTilesAtOnce,
+                   [&](std::size_t group, int thread) {
+                       std::unique_ptr<Worker>& worker = workers[thread];
+                       if (!worker) worker = std::make_unique<Worker>(scene_, *tables_, options_);
+                       const std::size_t first = group * kTilesAtOnce;
+                       const std::size_t last = std::min(first + kTilesAtOnce, tiles.size());
+                       for (std::size_t i = first; i < last; ++i)
+                           worker->trace(tiles[i], image, times ? &spent[thread] : nullptr);
+                   });
     if (times != nullptr) {
         times->tables += table_seconds_;
         for (const FastTimes& part : spent) {

@@ -132,6 +132,18 @@ struct Lanes : LaneShape<T, N> {
         }
         return v;
     }
+    /// from[0], from[1], from[2], from[3], from[0] ...
+    static HWY_INLINE Lanes load_repeated(const T* from) requires(sizeof(T) == 4) {
+        Lanes v;
+        for (std::size_t i = 0; i < Shape::kParts; ++i) {
+#if HWY_TARGET == HWY_SCALAR
+            v.part[i] = hn::Set(Tag(), from[i % 4]);
+#else
+            v.part[i] = hn::LoadDup128(Tag(), from);
+#endif
+        }
+        return v;
+    }
     HWY_INLINE void store(T* to) const {
         for (std::size_t i = 0; i < Shape::kParts; ++i)
             hn::StoreU(part[i], Tag(), to + i * Shape::kPart);
@@ -308,6 +320,14 @@ HWY_INLINE Doubles doubles_from(const Floats& v) {
         out.part[2 * i + 1] = hn::PromoteTo(Doubles::Tag(), hn::UpperHalf(half, v.part[i]));
     }
 #endif
+    return out;
+}
+
+/// Without their fractions.
+HWY_INLINE Ints integers_from(const Floats& v) {
+    Ints out;
+    for (std::size_t i = 0; i < Floats::Shape::kParts; ++i)
+        out.part[i] = hn::ConvertTo(Ints::Tag(), v.part[i]);
     return out;
 }
 

@@ -30,9 +30,16 @@ HWY_INLINE Floats small_error(const Floats& x) {
                   Floats(std::numeric_limits<float>::infinity()));
 }
 
+/// To a directional light: the same from everywhere.
+struct NoWay {
+    HWY_INLINE NoWay(const ShadingLight&, const Tile&, int) {}
+    HWY_INLINE Floats toward(const ShadingLight& light, int axis) const {
+        return Floats(light.toward[axis]);
+    }
+};
+
 /// From points to a point or spot light.
 struct WayToLight {
-    WayToLight() = default;
     HWY_INLINE WayToLight(const ShadingLight& light, const Tile& tile, int first) {
         square = Floats(0.0F);
         for (int axis = 0; axis < 3; ++axis) {
@@ -44,6 +51,9 @@ struct WayToLight {
         // The difference 1 u; 3 u of the square by half; the root 2.2 u.
         relative = small_error(error * inverse) + Floats(4.8F * kUnit);
     }
+
+    /// The unit vector to the light.
+    HWY_INLINE Floats toward(const ShadingLight&, int axis) const { return to[axis] * inverse; }
 
     Floats to[3];
     Floats square;

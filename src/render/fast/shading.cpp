@@ -7,11 +7,11 @@
 
 namespace nuvo {
 
-ShadingStage::ShadingStage(const FastScene& scene, const CameraRays& camera, InstructionSet isa,
-                           bool redo_exactly)
+ShadingStage::ShadingStage(const FastScene& scene, const CameraRays& camera,
+                           const CameraTables& tables, InstructionSet isa, bool redo_exactly)
     : redo_exactly_(redo_exactly), lit_(scene.scene().lights.size()) {
     isa = resolved(isa);
-    tables_ = std::make_shared<const ShadingTables>(scene, camera, isa);
+    tables_ = std::make_shared<const ShadingTables>(scene, camera, tables.spheres, isa);
     pick_surface_kernel(isa, kernels_);
     pick_light_kernels(isa, kernels_);
     pick_finish_kernel(isa, kernels_);

@@ -60,8 +60,8 @@ void pick_finish_kernel(InstructionSet isa, ShadingKernels& kernels);
 class ShadingStage {
   public:
     /// `redo_exactly` false: bytes that are not certain stay as they are.
-    ShadingStage(const FastScene& scene, const CameraRays& camera, InstructionSet isa,
-                 bool redo_exactly = true);
+    ShadingStage(const FastScene& scene, const CameraRays& camera, const CameraTables& tables,
+                 InstructionSet isa, bool redo_exactly = true);
 
     const ShadingTables& tables() const { return *tables_; }
 

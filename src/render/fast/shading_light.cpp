@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <limits>
+#include <type_traits>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "fast/shading_light.cpp"
@@ -17,6 +18,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace nuvo::HWY_NAMESPACE {
 
+/// One kind of light: directional or not.
+template <bool kDirectional>
 class LightSampler {
   public:
     LightSampler(const ShadingTables& tables, const Tile& tile, std::size_t light,
@@ -37,6 +40,8 @@ class LightSampler {
     }
 
   private:
+    using Way = std::conditional_t<kDirectional, NoWay, WayToLight>;
+
     std::uint32_t in_scope(int b, std::uint32_t lanes) const {
         for (std::uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
             const int lane = std::countr_zero(rest);
@@ -48,8 +53,7 @@ class LightSampler {
 
     HWY_INLINE std::uint32_t sample(int b, std::uint32_t lanes) {
         const int first = b * kBlockLanes;
-        WayToLight way;
-        if (!light_.directional) way = WayToLight(light_, tile_, first);
+        const Way way(light_, tile_, first);
         const std::uint32_t curved = light_.facing.empty() ? 0xffff : scratch_.curved[b];
         Lit lit{Floats(0.0F), Floats(0.0F)};
         if ((lanes & ~curved) != 0) lit = flat(first, way);
@@ -63,11 +67,14 @@ class LightSampler {
         lit.value = max(lit.value, Floats(0.0F));
         if (light_.ambient > 0 && tables_.any_ambient) add_ambient(first, lit, wanted);
         Factor factor;
-        const bool weaker = light_.ranged || light_.attenuated || light_.spot;
-        if (weaker) {
-            factor = strength(light_, way);
-            lit.error = mul_add(lit.value, factor.error, lit.error);
-            lit.value = lit.value * factor.value;
+        bool weaker = false;
+        if constexpr (!kDirectional) {
+            weaker = light_.ranged || light_.attenuated || light_.spot;
+            if (weaker) {
+                factor = strength(light_, way);
+                lit.error = mul_add(lit.value, factor.error, lit.error);
+                lit.value = lit.value * factor.value;
+            }
         }
         if ((tables_.any_flags & kSpecularFlag) != 0)
             add_lobe(first, way, weaker ? &factor : nullptr, wanted);
@@ -84,29 +91,31 @@ class LightSampler {
 
     // gain n.l of flat triangles. Directional: the table's rounding. Else the table's n.(L - a)
     // over |L - P|: also that of the product and those of the inverse length.
-    HWY_INLINE Lit flat(int first, const WayToLight& way) const {
+    HWY_INLINE Lit flat(int first, const Way& way) const {
         const Ints slot = Ints::load(reinterpret_cast<const std::int32_t*>(tile_.slot) + first);
         const auto known = (slot > Ints(-1)) &
                            (slot < Ints(static_cast<std::int32_t>(tables_.scene.triangle_end())));
         const Floats facing = Floats::gather(light_.facing.data(), select(known, slot, Ints(0)));
-        if (light_.directional)
+        if constexpr (kDirectional) {
             return {facing, mul_add(abs(facing), Floats(1.01F * kUnit + tint_rounding_),
                                     Floats(light_.facing_error))};
-        const Floats value = facing * way.inverse;
-        const Floats relative = way.relative + Floats(2.1F * kUnit + tint_rounding_);
-        return {value, mul_add(abs(value), relative, Floats(light_.facing_error) * way.inverse)};
+        } else {
+            const Floats value = facing * way.inverse;
+            const Floats relative = way.relative + Floats(2.1F * kUnit + tint_rounding_);
+            return {value,
+                    mul_add(abs(value), relative, Floats(light_.facing_error) * way.inverse)};
+        }
     }
 
     // Unit vectors n and l with their errors; n.l has 3 roundings of at most 1 each; the gain and
     // the product two more, relative to n.l (which also hands on a NaN).
-    HWY_INLINE Lit by_normal(int b, const WayToLight& way) const {
+    HWY_INLINE Lit by_normal(int b, const Way& way) const {
         const int first = b * kBlockLanes;
         Floats dot(0.0F);
         for (int axis = 0; axis < 3; ++axis) {
             const Floats n = Floats::load(tile_.normal[axis] + first);
-            dot = mul_add(n, light_.directional ? Floats(light_.toward[axis]) : way.to[axis], dot);
+            dot = mul_add(n, way.toward(light_, axis), dot);
         }
-        if (!light_.directional) dot = dot * way.inverse;
         const Floats gain(light_.gain);
         const Floats error =
             normal_error(b) + direction_error(way) + Floats(3.1F * kUnit + tint_rounding_);
@@ -118,8 +127,11 @@ class LightSampler {
                       Floats::load(scratch_.normal_error + b * kBlockLanes), Floats(kTableError));
     }
     // Of the unit vector to the light.
-    HWY_INLINE Floats direction_error(const WayToLight& way) const {
-        return light_.directional ? Floats(1.1F * kUnit) : way.relative + Floats(1.1F * kUnit);
+    HWY_INLINE Floats direction_error(const Way& way) const {
+        if constexpr (kDirectional)
+            return Floats(1.1F * kUnit);
+        else
+            return way.relative + Floats(1.1F * kUnit);
     }
 
     HWY_INLINE void add_ambient(int first, Lit& lit, RayMask& wanted) const {
@@ -139,7 +151,7 @@ class LightSampler {
             shift_left<kFloatsLog2>(word & Ints(static_cast<std::int32_t>(kMaterialMask))));
     }
 
-    HWY_INLINE void add_lobe(int first, const WayToLight& way, const Factor* factor,
+    HWY_INLINE void add_lobe(int first, const Way& way, const Factor* factor,
                              RayMask& wanted) const {
         RayMask shiny = RayMask::from_bits((tables_.common_word & kSpecularFlag) ? 0xffff : 0);
         if (!tables_.uniform) {
@@ -156,12 +168,11 @@ class LightSampler {
             for (int axis = 0; axis < 3; ++axis) {
                 normal[axis] = Floats::load(tile_.normal[axis] + first);
                 to_viewer[axis] = Floats::load(scratch_.view[axis] + first);
-                to_light[axis] =
-                    light_.directional ? Floats(light_.toward[axis]) : way.to[axis] * way.inverse;
+                to_light[axis] = way.toward(light_, axis);
             }
-            // The view's: d's own, 3 halves of |d|^2, the root's and the product's.
+            // The view's: d's own, 2 halves of |d|^2, the root's and the product's.
             const Floats directions_error =
-                direction_error(way) + Floats(tables_.bounds.direction_relative + 5.8F * kUnit);
+                direction_error(way) + Floats(tables_.rays.relative + 4.3F * kUnit);
             lobe = specular_lobe(normal, to_light, to_viewer, normal_error(first / kBlockLanes),
                                  directions_error, of_materials(first, &ShadingMaterial::exponent));
             lobe.perhaps = lobe.perhaps & shiny;
@@ -189,7 +200,10 @@ class LightSampler {
 
 void sample_light_in(const ShadingTables& tables, const Tile& tile, std::size_t light,
                      ShadingScratch& scratch, TileMask& wanted) {
-    LightSampler(tables, tile, light, scratch).run(wanted);
+    if (tables.lights[light].directional)
+        LightSampler<true>(tables, tile, light, scratch).run(wanted);
+    else
+        LightSampler<false>(tables, tile, light, scratch).run(wanted);
 }
 
 HWY_INLINE void add_to(float* sum, const Floats& term) { (Floats::load(sum) + term).store(sum); }

@@ -95,7 +95,7 @@ class SurfaceFiller {
             mul_add(t, directions.at(axis), Floats(static_cast<float>(tables_.camera.origin[axis])))
                 .store(tile_.point[axis] + first);
         const Floats w = (high - low) * t;
-        const Floats half = mul_add(w, w, w) * Floats(0.51F * bounds.direction_longest);
+        const Floats half = mul_add(w, w, w) * Floats(0.51F * tables_.rays.longest);
         const Floats error =
             mul_add(t, half + Floats(bounds.point_by_t), Floats(bounds.point_constant));
         select(w < Floats(1.0F), error, Floats(kInfinity)).store(tile_.point_error + first);
@@ -108,14 +108,9 @@ class SurfaceFiller {
     }
 
     HWY_INLINE void fill_view(int first, const BlockDirections& directions) {
-        Floats d[3];
-        Floats square(0.0F);
-        for (int axis = 0; axis < 3; ++axis) {
-            d[axis] = directions.at(axis);
-            square = mul_add(d[axis], d[axis], square);
-        }
-        const Floats inverse = -inverse_sqrt(square);
-        for (int axis = 0; axis < 3; ++axis) (d[axis] * inverse).store(scratch_.view[axis] + first);
+        const Floats inverse = -inverse_sqrt(directions.square());
+        for (int axis = 0; axis < 3; ++axis)
+            (directions.at(axis) * inverse).store(scratch_.view[axis] + first);
     }
 
     const ShadingTables& tables_;

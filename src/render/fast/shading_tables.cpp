@@ -20,7 +20,9 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kLightsWithFacing = 8;
 
 float rounded(double value) { return static_cast<float>(value); }
+// Not below `value` >= 0; of 0 it is 0, because subnormal operands slow every operation down.
 float rounded_up(double value) {
+    if (value == 0) return 0;
     return std::nextafter(static_cast<float>(value), std::numeric_limits<float>::infinity());
 }
 double largest(const Color& c) { return std::max(c.x, std::max(c.y, c.z)); }
@@ -238,36 +240,19 @@ void add_lights(ShadingTables& tables) {
         tables.any_ambient = tables.any_ambient || (ambient && m.lit && m.ambient_intensity != 0);
 }
 
-void bound_rays(ShadingTables& tables) {
-    const CameraRays& camera = tables.camera;
-    const Resolution size = camera.resolution;
-    double longest = 0;
-    for (const double y : {-0.5, 0.5})
-        for (const double x : {-0.5, 0.5})
-            longest = std::max(longest, length2(camera.direction(x * size.width, y * size.height)));
-    longest *= kSlack;
-    for (int lane = 0; lane < kBlockLanes; ++lane) {
-        const Vector3 step = camera.right * lane_x(lane) + camera.down * lane_y(lane);
-        for (int axis = 0; axis < 3; ++axis)
-            tables.lane_direction[axis][lane] = rounded(step[axis]);
-    }
-    const double steps =
-        std::min(2 * longest, (kBlockSide - 1) * (length2(camera.right) + length2(camera.down)));
+void bound_points(ShadingTables& tables) {
+    const ShadingRays& rays = tables.rays;
     ShadingBounds& bounds = tables.bounds;
-    bounds.direction_longest = rounded_up(longest);
-    // Roundings of the block's first direction, of the step and of their sum; |d| >= 1.
-    bounds.direction_error = rounded_up(kSlack * kFloatUnit * (2 * longest + steps));
-    bounds.direction_relative = rounded_up(kSlack * kFloatUnit * (2 + 2 * steps));
     // P = o + t d: roundings of o and of the sum; of 1 / near and the mean that is near (3.2 u)
     // and of the product.
     constexpr double kSceneRadius = 1.75;  // the box is within 1 of 0 on each axis
     const double world = world_rounding(tables.scene, tables.scene.scene().camera.position);
     bounds.point_constant =
-        rounded_up(kSlack * (kFloatUnit * (length2(camera.origin) + kSceneRadius) + world));
-    // Rounded once; the weights and normals in double that it comes from leave less than 1/2 u.
-    bounds.curved_point_error = rounded_up(kSlack * (kFloatUnit * (kSceneRadius + 0.5) + world));
-    bounds.point_by_t = rounded_up(
-        kSlack * (4.2 * kFloatUnit * longest + static_cast<double>(bounds.direction_error)));
+        rounded_up(kSlack * (kFloatUnit * (length2(tables.camera.origin) + kSceneRadius) + world));
+    bounds.point_by_t = rounded_up(kSlack * (4.2 * kFloatUnit * static_cast<double>(rays.longest) +
+                                             static_cast<double>(rays.error)));
+    // Of a sphere's centre and of a point's last sum.
+    bounds.curved_point_error = rounded_up(kSlack * (kFloatUnit * 2 * kSceneRadius + world));
 }
 
 std::vector<BackgroundBand> bands(const std::vector<Color>& colors,
@@ -299,8 +284,12 @@ std::vector<BackgroundBand> bands(const std::vector<Color>& colors,
 void add_background(ShadingTables& tables) {
     const Background& exact = tables.scene.scene().background;
     ShadingBackground& out = tables.background;
+    out.in_range = true;
     for (const std::vector<Color>* colors : {&exact.sky_color, &exact.ground_color})
-        for (const Color& c : *colors) tables.sound = tables.sound && is_sound(c);
+        for (const Color& c : *colors) {
+            tables.sound = tables.sound && is_sound(c);
+            out.in_range = out.in_range && is_sound(c) && largest(c) <= 1;
+        }
     if (exact.ground_color.empty() && exact.sky_color.size() <= 1) {
         const Color color = exact.sky_color.empty() ? Color{} : exact.sky_color[0];
         put_surely(color, out.middle.data());
@@ -313,15 +302,14 @@ void add_background(ShadingTables& tables) {
             out.middle[static_cast<std::size_t>(c)] = rounded(middle[c] * kFullByte);
             out.slope[static_cast<std::size_t>(c)] = rounded(slope[c] * kFullByte);
         }
-        // y = d_y / |d|: d's error twice, 3 roundings of |d|^2 by half, the root's 2.2 u and the
-        // product's; then those of both constants, of the product and of the sum.
-        const double y =
-            2 * static_cast<double>(tables.bounds.direction_relative) + 4.7 * kFloatUnit;
+        // Those of y, of both constants, of the product and of the sum.
         const double most = max_norm(slope);
+        const auto y = static_cast<double>(tables.rays.sine_error);
         out.error = rounded_up(kSlack * kFullByte *
                                (most * y + kFloatUnit * (2 * max_norm(middle) + 3 * most)));
     } else {
         out.kind = ShadingBackground::Kind::kGradient;
+        out.in_range = false;  // where bounds lie in two bands
         out.has_ground = !exact.ground_color.empty();
         out.sky = bands(exact.sky_color, exact.sky_angle);
         if (out.sky.empty()) out.sky = bands({Color{}}, {});
@@ -341,9 +329,9 @@ SurfaceWord surface_word(const ShadingTables& tables, const Object& object) {
 }
 
 ShadingTables::ShadingTables(const FastScene& scene_in, const CameraRays& camera_in,
-                             InstructionSet isa)
-    : scene(scene_in), camera(camera_in) {
-    bound_rays(*this);
+                             const BigVector<CameraSphere>& spheres_in, InstructionSet isa)
+    : scene(scene_in), camera(camera_in), spheres(spheres_in), rays(camera_in) {
+    bound_points(*this);
     add_materials(*this);
     add_mesh_flags(*this);
     add_lights(*this);
@@ -356,7 +344,8 @@ ShadingTables::ShadingTables(const FastScene& scene_in, const CameraRays& camera
 }
 
 std::size_t ShadingTables::memory_bytes() const {
-    std::size_t bytes = sizeof(*this) + materials.size() * sizeof(ShadingMaterial) +
+    std::size_t bytes = sizeof(*this) + rays.memory_bytes() +
+                        materials.size() * sizeof(ShadingMaterial) +
                         (material_words.size() + triangle_words.size()) * sizeof(SurfaceWord) +
                         normals.size() * sizeof(float) + smooth.size() * sizeof(SmoothTriangle) +
                         smooth_offsets.size() * sizeof(std::uint32_t);

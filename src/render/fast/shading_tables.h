@@ -5,7 +5,10 @@
 #include <memory>
 #include <vector>
 
+#include "big_vector.h"
+#include "camera_tables.h"
 #include "fast_scene.h"
+#include "shading_rays.h"
 #include "tile.h"
 
 // What shading knows of a picture before its first pixel: materials, lights and background in float
@@ -68,7 +71,7 @@ struct ShadingLight {
     float inverse_width = 0;  ///< 1 / (cut_off - beam_width); infinite: a sharp edge
     /// By slot of a flat triangle: gain times n.l (directional) or n.(L - a), n turned as
     /// shading_normal() turns it; NaN where double is not enough to know. Empty: use normals.
-    std::vector<float> facing;
+    BigVector<float> facing;
     float facing_error = 0;  ///< absolute, beside one rounding
 };
 
@@ -107,6 +110,7 @@ struct ShadingBackground {
     std::array<float, 3> middle{};  ///< kConstant; kBlend: at the horizon
     std::array<float, 3> slope{};   ///< kBlend: by the sine of the height
     float error = 0;                ///< bounds the errors in units of a byte
+    bool in_range = false;          ///< colors surely stay below 255 and a half, and above -1 / 2
     bool has_ground = false;
     std::vector<BackgroundBand> sky;  ///< never empty for a gradient; the last has no end
     std::vector<BackgroundBand> ground;
@@ -114,25 +118,26 @@ struct ShadingBackground {
 
 /// How far floats may be off in one picture.
 struct ShadingBounds {
-    float direction_longest = 0;   ///< bounds |d| of the picture's primary rays
-    float direction_error = 0;     ///< bounds |d in float - d|
-    float direction_relative = 0;  ///< the same in units of |d|
-    float point_constant = 0;      ///< |P in float - P| <= this + t (point_by_t + ...)
+    float point_constant = 0;  ///< |P in float - P| <= this + t (point_by_t + ...)
     float point_by_t = 0;
     float curved_point_error = 0;  ///< of a sphere's points, without its normal's part
     float color_error = 0;         ///< of interpolated colors, times 255
 };
 
 struct ShadingTables {
-    ShadingTables(const FastScene& scene, const CameraRays& camera, InstructionSet isa);
+    /// Keeps references; `spheres` are those of CameraTables.
+    ShadingTables(const FastScene& scene, const CameraRays& camera,
+                  const BigVector<CameraSphere>& spheres, InstructionSet isa);
 
     std::size_t memory_bytes() const;
 
     const FastScene& scene;
     const CameraRays& camera;
+    const BigVector<CameraSphere>& spheres;
+    ShadingRays rays;
     std::vector<ShadingMaterial> materials;   ///< without repetition
     std::vector<SurfaceWord> material_words;  ///< by index into Scene::materials
-    std::vector<SurfaceWord> triangle_words;  ///< by slot; empty: all are the same
+    BigVector<SurfaceWord> triangle_words;    ///< by slot; empty: all are the same
     SurfaceWord common_word = 0;              ///< of all primitives, if they are the same
     bool uniform = true;                      ///< all primitives have common_word
     SurfaceWord any_flags = 0;                ///< of any primitive
@@ -140,13 +145,11 @@ struct ShadingTables {
     bool any_ambient = false;                 ///< of a light and a material
     bool sound = true;  ///< false: a number is out of range, every pixel is for the referee
     std::vector<ShadingLight> lights;
-    std::vector<float> normals;                 ///< x, y, z, 0 by slot; empty: never asked for
-    std::vector<SmoothTriangle> smooth;         ///< of the meshes with interpolated normals
+    BigVector<float> normals;                   ///< x, y, z, 0 by slot; empty: never asked for
+    BigVector<SmoothTriangle> smooth;           ///< of the meshes with interpolated normals
     std::vector<std::uint32_t> smooth_offsets;  ///< by object: place of a slot is slot - offset
     ShadingBackground background;
     ShadingBounds bounds;
-    /// Of a block's pixels to its first, by axis: steps of the ray's direction.
-    alignas(64) float lane_direction[3][kBlockLanes];
 };
 
 }  // namespace nuvo

@@ -6,6 +6,7 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "fast/shadow.cpp"
+#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 
 #include "fast/beam.h"
@@ -27,10 +28,12 @@ class ShadowTracer {
                  TileMask& lit)
         : job_(job),
           scene_(job.tables.scene()),
+          light_(light),
           table_(job.tables.table(light)),
-          clusters_(tile, wanted),
+          planes_(job.tables.planes(light)),
+          clusters_(tile, wanted, table_.light, job.tables.leaf_width()),
           lit_(lit),
-          rounds_(job.tables.has_rounds()) {
+          has_rounds_(job.tables.has_rounds()) {
         const float error = clusters_.point_error() * (1 + 4 * kRoundoff);
         plane_error_ = (error + job.tables.plane_error()) * (1 + 4 * kRoundoff);
         round_error_ = (2 * error + job.tables.round_error()) * (1 + 4 * kRoundoff);
@@ -76,7 +79,7 @@ class ShadowTracer {
             points_[p] = clusters_.points(first + 16 * p, here);
         }
         if (packets_ > 1) load_boxes();
-        if (rounds_)
+        if (has_rounds_)
             for (int p = 0; p < packets_; ++p) ways_[p] = Ways(table_.light, points_[p]);
     }
 
@@ -85,7 +88,7 @@ class ShadowTracer {
         const GroupBoxes boxes(points_, packets_, by_fours_);
         centers_ = boxes.center;
         box_error_ = boxes.half + Floats(plane_error_);
-        if (!rounds_) return;
+        if (!has_rounds_) return;
         center_ways_ = Ways(table_.light, centers_);
         round_box_error_ = boxes.radius + Floats(round_error_);
     }
@@ -93,8 +96,14 @@ class ShadowTracer {
     void trace_beam(const PointBox& box) {
         job_.mailbox.start();
         triangles_.count = 0;
-        spheres_.count = 0;
+        rounds_.count = 0;
         enough_ = kFirstBatch;
+        blocker_ = kNoSlot;
+        OccluderCache& cache = job_.caches[light_];
+        if (cache.worth_a_try()) {
+            try_occluders(cache);
+            if (alive_ == 0) return;
+        }
         const BeamBox beam =
             beam_to_light(table_.light, box.low, box.high, plane_error_ + 8 * kRoundoff);
         const bool done = walk_beam(
@@ -102,6 +111,16 @@ class ShadowTracer {
             [&](const std::uint32_t* items, std::uint32_t count, float)
                 HWY_ATTR { return take(items, count); });
         if (!done) test_taken();
+        if (blocker_ != kNoSlot) cache.put(blocker_);
+    }
+
+    HWY_NOINLINE void try_occluders(OccluderCache& cache) {
+        for (const Slot slot : cache.slots()) {
+            if (slot == kNoSlot || job_.mailbox.seen(slot)) continue;
+            (slot < scene_.triangle_end() ? triangles_ : rounds_).add(slot, 1);
+        }
+        test_taken();
+        cache.tried(alive_ == 0);
     }
 
     // Tests are put off until there are some: what comes out of one cannot be foreseen, but they
@@ -111,115 +130,108 @@ class ShadowTracer {
         for (std::uint32_t i = 0; i < count; ++i) {
             const Slot slot = items[i];
             const std::uint32_t fresh = job_.mailbox.seen(slot) ? 0 : 1;
+            if (slot < triangle_end) hwy::Prefetch(planes_ + slot);
             if (slot < triangle_end)
                 triangles_.add(slot, fresh);
             else
-                spheres_.add(slot, fresh);
-            if (triangles_.full() || spheres_.full()) {
+                rounds_.add(slot, fresh);
+            if (triangles_.full() || rounds_.full()) {
                 test_taken();
                 if (alive_ == 0) return true;
             }
         }
-        if (triangles_.count + spheres_.count < enough_) return false;
+        if (triangles_.count + rounds_.count < enough_) return false;
         enough_ = std::min(2 * enough_, Batch::kSize);
         test_taken();
         return alive_ == 0;
     }
     HWY_INLINE void test_taken() {
         if (triangles_.count > 0) test_triangles();
-        if (spheres_.count > 0) {
-            for (std::uint32_t i = 0; i < spheres_.count; ++i) test_round(spheres_.slot[i]);
-            spheres_.count = 0;
-        }
+        if (rounds_.count > 0) test_rounds();
         update();
     }
 
-    void test_triangles() {
-        Batch near;
-        near.count = triangles_.count;
-        std::uint32_t groups[Batch::kSize];
+    // The items that may hide a point of some group, with these groups.
+    struct Near {
+        std::uint32_t count = 0;
+        Slot slot[Batch::kSize + 1];
+        std::uint32_t groups[Batch::kSize + 1];
+
+        HWY_INLINE void add(Slot item, std::uint32_t of) {
+            slot[count] = item;
+            groups[count] = of;
+            count += of != 0 ? 1 : 0;
+        }
+    };
+
+    HWY_NOINLINE void test_triangles() {
+        Near near;
+        Slot blocker = blocker_;
         if (packets_ > 1) {
-            near.count = 0;
             std::uint32_t whole = 0;
             for (std::uint32_t i = 0; i < triangles_.count; ++i) {
-                const Slot slot = triangles_.slot[i];
-                const Floats depth = hidden(table_.planes[slot], centers_);
-                groups[near.count] = groups_ & ~(depth < -box_error_).bits();
-                whole |= (depth > box_error_).bits();
-                near.add(slot, groups[near.count] != 0 ? 1 : 0);
+                const Floats depth = hidden(planes_[triangles_.slot[i]], centers_);
+                near.add(triangles_.slot[i], groups_ & ~(depth < -box_error_).bits());
+                const std::uint32_t sure = (depth > box_error_).bits();
+                blocker = (sure & groups_) != 0 ? triangles_.slot[i] : blocker;
+                whole |= sure;
             }
             block_groups(whole & groups_);
         } else {
-            near = triangles_;
-            std::fill(groups, groups + near.count, 1U);
+            for (std::uint32_t i = 0; i < triangles_.count; ++i) near.add(triangles_.slot[i], 1);
         }
         for (std::uint32_t i = 0; i < near.count; ++i) {
-            const ShadowPlanes& planes = table_.planes[near.slot[i]];
-            for (std::uint32_t at = groups[i]; at != 0;) {
-                const int p = std::countr_zero(at) >> group_shift_;
-                at &= ~(group_mask_ << (p << group_shift_));
+            const ShadowPlanes& planes = planes_[near.slot[i]];
+            for (std::uint32_t at = near.groups[i]; at != 0;) {
+                const int p = next_packet(at);
                 const Floats depth = hidden(planes, points_[p]);
                 const std::uint32_t perhaps = waiting_[p] & ~(depth < Floats(-plane_error_)).bits();
                 const std::uint32_t sure = perhaps & (depth > Floats(plane_error_)).bits();
                 waiting_[p] &= ~sure;
+                blocker = sure != 0 ? near.slot[i] : blocker;
                 if (perhaps != sure)
-                    put_aside(near.slot[i], p, perhaps ^ sure, depth > Floats(0.0F));
+                    leave_triangle(near.slot[i], p, perhaps ^ sure, depth > Floats(0.0F));
             }
         }
         triangles_.count = 0;
+        blocker_ = blocker;
+    }
+    // The packet of the first group in `groups`, all of whose groups are taken out.
+    HWY_INLINE int next_packet(std::uint32_t& groups) const {
+        const int p = std::countr_zero(groups) >> group_shift_;
+        groups &= ~(group_mask_ << (p << group_shift_));
+        return p;
     }
 
-    HWY_INLINE void test_round(Slot slot) {
-        const RoundShape& shape = job_.tables.round(slot);
-        const LightSide side = table_.round_sides.empty()
-                                   ? LightSide::kOutside
-                                   : table_.round_sides[slot - scene_.triangle_end()];
-        const bool sphere = slot < scene_.sphere_end();
-        std::uint32_t packets = alive_;
+    HWY_NOINLINE void test_rounds() {
+        Near near;
+        Slot blocker = blocker_;
         if (packets_ > 1) {
-            const RoundTest test(shape, centers_, center_ways_, round_box_error_);
-            const std::uint32_t perhaps = ~free(test, side, sphere);
-            if ((perhaps & groups_) == 0) return;
-            block_groups(blocked(test, side, sphere) & groups_);
-            packets = packets_of(perhaps & groups_);
+            std::uint32_t whole = 0;
+            for (std::uint32_t i = 0; i < rounds_.count; ++i) {
+                const RoundItem item(job_.tables, table_, rounds_.slot[i]);
+                const RoundTest test(item, centers_, center_ways_, round_box_error_);
+                near.add(rounds_.slot[i], groups_ & ~test.free());
+                whole |= test.blocked();
+            }
+            block_groups(whole & groups_);
+        } else {
+            for (std::uint32_t i = 0; i < rounds_.count; ++i) near.add(rounds_.slot[i], 1);
         }
-        for (; packets != 0; packets &= packets - 1)
-            test_round(slot, shape, side, sphere, std::countr_zero(packets));
-    }
-
-    HWY_INLINE void test_round(Slot slot, const RoundShape& shape, LightSide side, bool sphere,
-                               int p) {
-        const RoundTest test(shape, points_[p], ways_[p], Floats(round_error_));
-        const std::uint32_t own = clusters_.of_slot(first_ + 16 * p, slot) & waiting_[p];
-        std::uint32_t perhaps = waiting_[p] & ~own & ~free(test, side, sphere);
-        std::uint32_t sure = perhaps & blocked(test, side, sphere);
-        if (own != 0) {
-            // The way from the sphere itself enters it iff it points inwards.
-            const Floats margin =
-                mul_add(ways_[p].inverse, Floats(round_error_), Floats(round_error_));
-            if (!sphere)
-                perhaps |= own;
-            else if (side != LightSide::kInside)
-                perhaps |= own & ~(test.along < -margin).bits();
-            if (sphere && side == LightSide::kOutside) sure |= own & (test.along > margin).bits();
+        for (std::uint32_t i = 0; i < near.count; ++i) {
+            const RoundItem item(job_.tables, table_, near.slot[i]);
+            for (std::uint32_t at = near.groups[i]; at != 0;) {
+                const int p = next_packet(at);
+                const RoundTest test(item, points_[p], ways_[p], Floats(round_error_));
+                const std::uint32_t perhaps = waiting_[p] & ~test.free();
+                const std::uint32_t sure = perhaps & test.blocked();
+                waiting_[p] &= ~sure;
+                blocker = sure != 0 ? near.slot[i] : blocker;
+                if (perhaps != sure) leave_round(near.slot[i], p, perhaps ^ sure, item, test);
+            }
         }
-        if (perhaps == 0) return;
-        waiting_[p] &= ~sure;
-        if (perhaps != sure)
-            put_aside(slot, p, perhaps & ~sure, without(test.crosses, test.behind | test.beyond));
-    }
-
-    static HWY_INLINE std::uint32_t free(const RoundTest& test, LightSide side, bool sphere) {
-        RayMask mask = test.passes | (test.outside & test.behind);
-        if (side == LightSide::kOutside) mask = mask | (test.outside & test.beyond);
-        if (side == LightSide::kInside && sphere) mask = mask | test.inside;
-        return mask.bits();
-    }
-    static HWY_INLINE std::uint32_t blocked(const RoundTest& test, LightSide side, bool sphere) {
-        if (!sphere || side == LightSide::kUnknown) return 0;
-        if (side == LightSide::kInside) return test.outside.bits();
-        const RayMask through = without(test.crosses & test.outside, test.behind | test.beyond);
-        return (through | test.inside).bits();
+        rounds_.count = 0;
+        blocker_ = blocker;
     }
 
     void block_groups(std::uint32_t groups) {
@@ -232,22 +244,52 @@ class ShadowTracer {
                 waiting_[group] = 0;
         }
     }
-    HWY_INLINE std::uint32_t packets_of(std::uint32_t groups) const {
-        if (!by_fours_) return groups;
-        std::uint32_t packets = 0;
-        for (int p = 0; p < packets_; ++p) packets |= (groups >> (4 * p) & 0xf) != 0 ? 1U << p : 0;
-        return packets;
-    }
     // Finds out what still waits.
     HWY_INLINE void update() {
         alive_ = 0;
         for (int p = 0; p < packets_; ++p) alive_ |= waiting_[p] != 0 ? 1U << p : 0;
         if (!by_fours_) groups_ &= alive_;
     }
-    HWY_NOINLINE void put_aside(Slot slot, int p, std::uint32_t lanes, const RayMask& rounded) {
-        if (slot < scene_.triangle_end()) lanes &= ~clusters_.of_slot(first_ + 16 * p, slot);
+    // A triangle does not hide its own points.
+    HWY_NOINLINE void leave_triangle(Slot slot, int p, std::uint32_t lanes,
+                                     const RayMask& rounded) {
+        lanes &= ~clusters_.of_slot(first_ + 16 * p, slot);
+        put_aside(slot, p, lanes, rounded.bits());
+    }
+    // Nor does a sphere where the way to the light leads outwards. Its own points touch it, so they
+    // come here unless their ways lead deep into it.
+    HWY_NOINLINE void leave_round(Slot slot, int p, std::uint32_t lanes, const RoundItem& item,
+                                  const RoundTest& test) {
+        const std::uint32_t own = lanes & clusters_.of_slot(first_ + 16 * p, slot);
+        std::uint32_t rounded =
+            (test.square < Floats(item.shape.radius * item.shape.radius)).bits() & ~own;
+        if (item.sphere) {
+            const Points& at = points_[p];
+            const Ways& way = ways_[p];
+            const Floats fx = Floats(item.shape.center[0]) - at.x;
+            const Floats fy = Floats(item.shape.center[1]) - at.y;
+            const Floats fz = Floats(item.shape.center[2]) - at.z;
+            const Floats along = mul_add(fx, way.x, mul_add(fy, way.y, fz * way.z));
+            // Off by the way's own error at one end, at most 1 away, and by the point's.
+            const Floats margin = mul_add(way.inverse, Floats(round_error_), Floats(round_error_));
+            const std::uint32_t outwards = (along < -margin).bits();
+            const std::uint32_t inwards = (along > margin).bits();
+            if (item.side == LightSide::kOutside) waiting_[p] &= ~(own & inwards);
+            lanes &= ~(own & outwards);
+            if (item.side == LightSide::kInside) {
+                // The way ends inside: blocked iff it starts outside.
+                const Floats square = mul_add(fx, fx, mul_add(fy, fy, fz * fz));
+                const float less = std::max(item.shape.radius - round_error_, 0.0F);
+                waiting_[p] &= ~(lanes & ~own & (square > test.outside).bits());
+                lanes &= ~(own | (square < Floats(less * less)).bits());
+            }
+            rounded |= own & (along > Floats(0.0F)).bits();
+        }
+        put_aside(slot, p, lanes & waiting_[p], rounded);
+    }
+    HWY_INLINE void put_aside(Slot slot, int p, std::uint32_t lanes, std::uint32_t rounded) {
         if (!job_.redo_exactly) {
-            waiting_[p] &= ~(lanes & rounded.bits());
+            waiting_[p] &= ~(lanes & rounded);
             return;
         }
         for (; lanes != 0; lanes &= lanes - 1)
@@ -270,10 +312,12 @@ class ShadowTracer {
 
     ShadowJob& job_;
     const FastScene& scene_;
+    std::size_t light_;
     const ShadowTable& table_;
+    const ShadowPlanes* planes_;
     PointClusters clusters_;
     TileMask& lit_;
-    bool rounds_;
+    bool has_rounds_;
     float plane_error_;
     float round_error_;
 
@@ -293,8 +337,9 @@ class ShadowTracer {
     Floats box_error_;
     Floats round_box_error_;
     Batch triangles_;  // waiting for their tests
-    Batch spheres_;
+    Batch rounds_;
     std::uint32_t enough_ = kFirstBatch;
+    Slot blocker_ = kNoSlot;  // the last item that surely blocked something
 };
 
 void trace_shadows(ShadowJob& job, const Tile& tile, std::size_t light, const TileMask& wanted,
@@ -311,7 +356,8 @@ HWY_AFTER_NAMESPACE();
 namespace nuvo {
 
 ShadowStage::ShadowStage(const ShadowTables& tables, InstructionSet isa, bool redo_exactly)
-    : job_{tables, redo_exactly}, trace_(NUVO_FOR_ISA(isa, trace_shadows)) {}
+    : job_{tables, redo_exactly, {}, {}, std::vector<OccluderCache>(tables.light_count())},
+      trace_(NUVO_FOR_ISA(isa, trace_shadows)) {}
 
 void ShadowStage::trace(const Tile& tile, std::size_t light, const TileMask& wanted,
                         const Referee& referee, TileMask& lit) {

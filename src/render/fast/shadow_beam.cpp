@@ -51,10 +51,26 @@ BeamBox from_points(const LightPoint& light, const float (&low)[3], const float 
     return beam;
 }
 
+// Meets every voxel of the scene.
+BeamBox everywhere() {
+    BeamBox beam;
+    for (int axis = 0; axis < 3; ++axis) {
+        beam.origin_low[axis] = beam.direction_low[axis] = -1;
+        beam.origin_high[axis] = beam.direction_high[axis] = 1;
+    }
+    beam.t_end = 1;
+    return beam;
+}
+
 }  // namespace
 
 BeamBox beam_to_light(const LightPoint& light, const float (&low)[3], const float (&high)[3],
                       float slack) {
+    // Points that are hardly known; written so that a NaN counts as one of these.
+    bool known = light.finite && slack < 1;
+    for (int axis = 0; axis < 3; ++axis)
+        known = known && std::fabs(low[axis]) < 2 && std::fabs(high[axis]) < 2;
+    if (!known) return everywhere();
     BeamBox beam = light.weight >= kNearWeight ? from_light(light, low, high, slack)
                                                : from_points(light, low, high, slack);
     beam.keep_off_zero();

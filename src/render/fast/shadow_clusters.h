@@ -7,6 +7,7 @@
 #endif
 
 #include <bit>
+#include <cmath>
 #include <limits>
 
 #include "lanes.h"
@@ -31,11 +32,16 @@ inline constexpr LaneNumbers kLaneNumbers{};
 
 class PointClusters {
   public:
-    PointClusters(const Tile& tile, const TileMask& wanted) {
+    /// `leaf_width`: see ShadowTables; no beam is left thicker.
+    PointClusters(const Tile& tile, const TileMask& wanted, const LightPoint& light,
+                  float leaf_width)
+        : thickest_(leaf_width) {
         Floats error(0.0F);
         for (int b = 0; b < kTileBlocks; ++b)
             if (wanted[b] != 0) add(tile, b, wanted[b], error);
         point_error_ = highest(error);
+        if (count_ > 0) whole_ = box(0, count_);
+        weigh_axes(light);
     }
 
     /// The largest of the points.
@@ -51,21 +57,16 @@ class PointClusters {
         };
         Run waiting[kTileLanes];
         int runs = 0;
-        if (count_ > 0) waiting[runs++] = {0, count_, box(0, count_)};
+        if (count_ > 0) waiting[runs++] = {0, count_, whole_};
         while (runs > 0) {
             const Run run = waiting[--runs];
-            if (run.box.size() > kCoherent && run.count > 1) {
+            if (thickness(run.box) > thickest_ && run.count > 1) {
                 const int below = split(run.first, run.count, run.box);
                 const int above = run.count - below;
                 if (below > 0 && above > 0) {
-                    const PointBox low = box(run.first, below);
-                    const PointBox high = box(run.first + below, above);
-                    if (run.box.size() > kLarge ||
-                        low.size() + high.size() < kGain * run.box.size()) {
-                        waiting[runs++] = {run.first, below, low};
-                        waiting[runs++] = {run.first + below, above, high};
-                        continue;
-                    }
+                    waiting[runs++] = {run.first, below, box(run.first, below)};
+                    waiting[runs++] = {run.first + below, above, box(run.first + below, above)};
+                    continue;
                 }
             }
             use(run.first, run.count, run.box);
@@ -103,21 +104,42 @@ class PointClusters {
     }
 
   private:
-    static constexpr float kCoherent = 0.1F;
-    static constexpr float kLarge = 1.0F;
-    static constexpr float kGain = 0.8F;
+    static constexpr double kLeastAcross = 0.03;
 
     HWY_INLINE void add(const Tile& tile, int b, std::uint32_t lanes, Floats& error) {
         const int from = b * kBlockLanes;
-        const RayMask mask = RayMask::from_bits(lanes);
-        for (int axis = 0; axis < 3; ++axis)
-            Floats::load(tile.point[axis] + from).compress_store(at_[axis] + count_, mask);
-        error = max(error, select(mask, Floats::load(tile.point_error + from), Floats(0.0F)));
-        const auto ints = mask_for<std::int32_t>(mask);
-        Ints::load(reinterpret_cast<const std::int32_t*>(tile.slot) + from)
-            .compress_store(slot_ + count_, ints);
-        Ints::load(kLaneNumbers.lane + from).compress_store(lane_ + count_, ints);
+        const Floats errors = Floats::load(tile.point_error + from);
+        const auto* const slots = reinterpret_cast<const std::int32_t*>(tile.slot) + from;
+        const Ints numbers = Ints::load(kLaneNumbers.lane + from);
+        if (lanes == 0xffff) {
+            for (int axis = 0; axis < 3; ++axis)
+                Floats::load(tile.point[axis] + from).store(at_[axis] + count_);
+            error = max(error, errors);
+            Ints::load(slots).store(slot_ + count_);
+            numbers.store(lane_ + count_);
+        } else {
+            const RayMask mask = RayMask::from_bits(lanes);
+            const auto ints = mask_for<std::int32_t>(mask);
+            for (int axis = 0; axis < 3; ++axis)
+                Floats::load(tile.point[axis] + from).compress_store(at_[axis] + count_, mask);
+            error = max(error, select(mask, errors, Floats(0.0F)));
+            Ints::load(slots).compress_store(slot_ + count_, ints);
+            numbers.compress_store(lane_ + count_, ints);
+        }
         count_ += std::popcount(lanes);
+    }
+
+    // A beam gets no thicker by what its points lie apart on the way to the light.
+    void weigh_axes(const LightPoint& light) {
+        Vector3 way = light.toward;
+        for (int axis = 0; axis < 3; ++axis)
+            way[axis] -= light.weight * 0.5 * (whole_.low[axis] + whole_.high[axis]);
+        const Vector3 unit = normalized(way);
+        for (int axis = 0; axis < 3; ++axis)
+            across_[axis] = static_cast<float>(std::fmax(1 - std::fabs(unit[axis]), kLeastAcross));
+    }
+    float thickness(const PointBox& box) const {
+        return across_[0] * box.extent(0) + across_[1] * box.extent(1) + across_[2] * box.extent(2);
     }
 
     HWY_INLINE PointBox box(int first, int count) const {
@@ -134,8 +156,9 @@ class PointClusters {
 
     // Puts the points below the middle of the box' longest side first; returns their number.
     int split(int first, int count, const PointBox& box) {
-        int axis = box.extent(0) >= box.extent(1) ? 0 : 1;
-        if (box.extent(2) > box.extent(axis)) axis = 2;
+        const auto extent = [&](int i) { return across_[i] * box.extent(i); };
+        int axis = extent(0) >= extent(1) ? 0 : 1;
+        if (extent(2) > extent(axis)) axis = 2;
         const Floats middle(0.5F * (box.low[axis] + box.high[axis]));
         alignas(64) std::int32_t upper[5][kTileLanes + 16];
         int below = first;
@@ -167,6 +190,9 @@ class PointClusters {
     }
     static std::int32_t* bits(float* at) { return reinterpret_cast<std::int32_t*>(at); }
 
+    PointBox whole_{};
+    float across_[3];
+    float thickest_;
     int count_ = 0;
     float point_error_ = 0;
     // With room for a register beyond the last.

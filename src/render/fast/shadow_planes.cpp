@@ -1,5 +1,7 @@
 #include "fast/shadow_planes.h"
 
+#include <cstring>
+
 #include "nuvo/math/error_bounds.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -108,38 +110,49 @@ class PlanesMaker {
         const DoubleVectors from_a = local_a * weight_ - toward_;
         const DoubleVectors from_b = local_b * weight_ - toward_;
         const DoubleVectors normal = e1.cross(e2);
-        const Numbers side = signs(first, count, normal.dot(from_a), e1.norm1() * e2.norm1());
+        const Numbers side = signs(count, normal.dot(from_a), e1.norm1() * e2.norm1());
         put(0, e1.cross(from_a), side, local_a, e1.norm1() * size_);
         put(1, from_a.cross(e2), side, local_a, e2.norm1() * size_);
         put(2, e3.cross(from_b), side, local_b, e3.norm1() * size_);
         put(3, normal, Numbers(0.0) - side, local_a, e1.norm1() * e2.norm1());
-        for (std::size_t i = 0; i < count; ++i) {
-            ShadowPlanes& planes = job_.out[first + i];
-            for (int p = 0; p < 4; ++p)
-                for (int k = 0; k < 4; ++k) planes.plane[p][k] = static_cast<float>(made_[p][k][i]);
-            // The light lies in the plane: nothing is hidden from it.
-            if (sides_[i] == 0) planes.plane[3][3] = -1;
+        write(job_.out + first, count);
+    }
+
+    // Of each plane, four components of eight triangles become eight times four.
+    HWY_INLINE void write(ShadowPlanes* out, std::size_t count) {
+        using Tag = LaneShape<float, 4>::Tag;
+        constexpr std::size_t kWidth = LaneShape<float, 4>::kPart;
+        alignas(64) float planes[4 * kBatch];
+        for (int p = 0; p < 4; ++p) {
+            const auto& made = made_[p];
+            for (std::size_t i = 0; i < kBatch; i += kWidth)
+                hn::StoreInterleaved4(hn::Load(Tag(), made[0] + i), hn::Load(Tag(), made[1] + i),
+                                      hn::Load(Tag(), made[2] + i), hn::Load(Tag(), made[3] + i),
+                                      Tag(), planes + 4 * i);
+            for (std::size_t i = 0; i < count; ++i)
+                std::memcpy(out[i].plane[p], planes + 4 * i, sizeof out[i].plane[p]);
         }
+        // Where the light lies in the plane nothing is hidden from it.
+        for (std::size_t i = 0; i < count; ++i)
+            if (sides_[i] == 0) out[i].plane[3][3] = -1;
     }
 
     // 1 where the light is on the side that the normal points to, -1 or 0: of -n.v.
-    HWY_INLINE Numbers signs(Slot first, std::size_t count, const Numbers& nv,
-                             const Numbers& edges) {
+    HWY_INLINE Numbers signs(std::size_t count, const Numbers& nv, const Numbers& edges) {
         const Numbers bound = edges * (size_ * Numbers(kSideError)) + Numbers(kSmallest);
         const auto sure = abs(nv) > bound;
         const Numbers rounded = select(nv > Numbers(0.0), Numbers(-1.0), Numbers(1.0));
         rounded.store(sides_);
         for (std::uint32_t open = ~sure.bits() & ((1U << count) - 1); open != 0; open &= open - 1)
-            decide(first, static_cast<unsigned>(std::countr_zero(open)));
+            decide(static_cast<unsigned>(std::countr_zero(open)));
         return Numbers::load(sides_);
     }
-    HWY_NOINLINE void decide(Slot first, unsigned i) {
+    HWY_NOINLINE void decide(unsigned i) {
         const auto corner = [i](const double(*from)[kBatch]) {
             return Point3{from[0][i], from[1][i], from[2][i]};
         };
         sides_[i] = exact_light_side(job_.exact_light,
                                      {corner(corners_.a), corner(corners_.b), corner(corners_.c)});
-        static_cast<void>(first);
     }
 
     HWY_INLINE void put(int p, const DoubleVectors& normal, const Numbers& sign,
@@ -152,10 +165,16 @@ class PlanesMaker {
                                               select(known, normal.y, Numbers(0.0)),
                                               select(known, normal.z, Numbers(0.0))} *
                                 factor;
-        n.x.store(made_[p][0]);
-        n.y.store(made_[p][1]);
-        n.z.store(made_[p][2]);
-        (Numbers(0.0) - n.dot(on_it)).store(made_[p][3]);
+        store_rounded(n.x, made_[p][0]);
+        store_rounded(n.y, made_[p][1]);
+        store_rounded(n.z, made_[p][2]);
+        store_rounded(-n.dot(on_it), made_[p][3]);
+    }
+    static HWY_INLINE void store_rounded(const Numbers& v, float* to) {
+        for (std::size_t i = 0; i < Numbers::Shape::kParts; ++i) {
+            const hn::Rebind<float, Numbers::Tag> tag;
+            hn::StoreU(hn::DemoteTo(tag, v.part[i]), tag, to + i * Numbers::Shape::kPart);
+        }
     }
 
     const ShadowPlanesJob& job_;
@@ -166,7 +185,7 @@ class PlanesMaker {
     Numbers size_;  // bounds |v|
     Corners corners_;
     alignas(64) double sides_[kBatch];
-    alignas(64) double made_[4][4][kBatch];
+    alignas(64) float made_[4][4][kBatch];  // by plane, component, triangle
 };
 
 void make_planes(const ShadowPlanesJob& job) { PlanesMaker(job).run(); }

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <thread>
 
 #include "nuvo/geometry/predicates.h"
 #include "nuvo/math/error_bounds.h"
@@ -74,7 +74,8 @@ LightPoint::LightPoint(const Light& light, const LocalFrame& frame) {
     finite = std::isfinite(norm) && std::isfinite(toward.x + toward.y + toward.z);
 }
 
-ShadowTables::ShadowTables(const FastScene& scene, InstructionSet isa) : scene_(scene) {
+ShadowTables::ShadowTables(const FastScene& scene, InstructionSet isa, int threads)
+    : scene_(scene) {
     const Bounds3T<float>& box = scene.octree().bounds;
     reach_ = std::fmax(max_norm(box.min), max_norm(box.max));
     if (!std::isfinite(reach_)) reach_ = 1;  // an empty scene
@@ -85,17 +86,42 @@ ShadowTables::ShadowTables(const FastScene& scene, InstructionSet isa) : scene_(
         kFloatUnderflow;
     plane_error_ = rounded_up(kPlaneRoundings * kFloatRoundoff * reach_ + 2 * touch_);
     round_error_ = rounded_up(kRoundRoundings * kFloatRoundoff * reach_ + kTouch * touch_);
+    const auto nodes = static_cast<double>(scene.octree().nodes.size());
+    leaf_width_ = static_cast<float>(2 * reach_ / std::cbrt(nodes + 1));
     add_rounds();
-    for (const Light& light : scene.scene().lights) {
+    const std::vector<Light>& lights = scene.scene().lights;
+    const auto casts = [](const Light& light) { return light.casts_shadow; };
+    planes_.resize(static_cast<std::size_t>(std::count_if(lights.begin(), lights.end(), casts)) *
+                   scene.triangle_end());
+    std::size_t made = 0;
+    for (const Light& light : lights) {
         ShadowTable& table = tables_.emplace_back(LightPoint(light, scene.frame()));
         if (!light.casts_shadow) continue;
-        table.planes.resize(scene.triangle_end());
-        if (table.light.finite)
-            make_shadow_planes(
-                {scene, table.light, reach_, 0, scene.triangle_end(), table.planes.data(), light},
-                isa);
+        table.first_plane = made;
+        made += scene.triangle_end();
+        add_planes(light, table, isa, threads);
         add_sides(table);
     }
+}
+
+void ShadowTables::add_planes(const Light& light, const ShadowTable& table, InstructionSet isa,
+                              int threads) {
+    const Slot end = scene_.triangle_end();
+    ShadowPlanes* const planes = planes_.data() + table.first_plane;
+    if (!table.light.finite) {
+        std::fill(planes, planes + end, ShadowPlanes{});
+        return;
+    }
+    const auto make = [&](Slot first, Slot last) {
+        make_shadow_planes({scene_, table.light, reach_, first, last, planes, light}, isa);
+    };
+    // Fewer triangles than this are done before a thread has started.
+    constexpr Slot kShare = 1 << 13;
+    const Slot share = std::max(kShare, (end + threads - 1) / threads);
+    std::vector<std::jthread> others;
+    for (Slot first = share; first < end; first += share)
+        others.emplace_back(make, first, std::min(end, first + share));
+    make(0, std::min(end, share));
 }
 
 void ShadowTables::add_rounds() {
@@ -140,10 +166,8 @@ void ShadowTables::add_sides(ShadowTable& table) const {
 }
 
 std::size_t ShadowTables::memory_bytes() const {
-    std::size_t bytes = rounds_.size() * sizeof(RoundShape);
-    for (const ShadowTable& table : tables_)
-        bytes += table.planes.size() * sizeof(ShadowPlanes) +
-                 table.round_sides.size() * sizeof(LightSide);
+    std::size_t bytes = rounds_.size() * sizeof(RoundShape) + planes_.size() * sizeof(ShadowPlanes);
+    for (const ShadowTable& table : tables_) bytes += table.round_sides.size() * sizeof(LightSide);
     return bytes;
 }
 

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "big_vector.h"
 #include "fast_scene.h"
 #include "nuvo/render/fast.h"
 #include "nuvo/scene/light.h"
@@ -45,18 +46,23 @@ struct ShadowTable {
     explicit ShadowTable(const LightPoint& from) : light(from) {}
 
     LightPoint light;
-    std::vector<ShadowPlanes> planes;    ///< by slot
+    std::size_t first_plane = 0;         ///< where its planes begin among those of all lights
     std::vector<LightSide> round_sides;  ///< of slots from triangle_end on; empty: all outside
 };
 
 /// What the shadow stage needs of scene and lights, shared by all threads.
 class ShadowTables {
   public:
-    ShadowTables(const FastScene& scene, InstructionSet isa);
+    ShadowTables(const FastScene& scene, InstructionSet isa, int threads = 1);
 
     const FastScene& scene() const { return scene_; }
     /// Of light i; empty where it casts no shadow.
     const ShadowTable& table(std::size_t light) const { return tables_[light]; }
+    /// Of light i, by slot; none where it casts no shadow.
+    const ShadowPlanes* planes(std::size_t light) const {
+        return planes_.data() + tables_[light].first_plane;
+    }
+    std::size_t light_count() const { return tables_.size(); }
     const RoundShape& round(Slot slot) const { return rounds_[slot - scene_.triangle_end()]; }
     bool has_rounds() const { return !rounds_.empty(); }
 
@@ -67,19 +73,25 @@ class ShadowTables {
     /// but for twice P's own error; with a margin in which round shapes count as touched.
     float round_error() const { return round_error_; }
 
+    /// How wide a node would be if all were cubes side by side: about what a beam may be thick.
+    float leaf_width() const { return leaf_width_; }
+
     std::size_t memory_bytes() const;
 
   private:
+    void add_planes(const Light& light, const ShadowTable& table, InstructionSet isa, int threads);
     void add_rounds();
     void add_sides(ShadowTable& table) const;
 
     const FastScene& scene_;
     double reach_;  // largest |coordinate| of the scene's box in the local frame
     double touch_;  // bounds SurfacePoint::error, in the local frame
+    float leaf_width_;
     float plane_error_;
     float round_error_;
     std::vector<RoundShape> rounds_;
     std::vector<ShadowTable> tables_;
+    BigVector<ShadowPlanes> planes_;
 };
 
 }  // namespace nuvo

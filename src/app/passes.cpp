@@ -1,0 +1,147 @@
+#include "passes.h"
+
+#include <algorithm>
+#include <thread>
+
+#include "nuvo/app/choices.h"
+
+namespace nuvo::app {
+namespace {
+
+void note(std::vector<double>& seconds, std::vector<double>& wall_seconds,
+          const StageStopwatch& watch) {
+    seconds.push_back(watch.seconds());
+    wall_seconds.push_back(watch.wall_seconds());
+}
+
+/// One way to build and to render: an octree to be walked serially.
+class SerialRun {
+  public:
+    SerialRun(const Scene& scene, const Options&, const Profile& profile)
+        : scene_(scene),
+          profile_(profile),
+          primitives_(flatten(scene, profile.leaves)),
+          octree_(build_tree(scene, primitives_, profile)) {}
+
+    Image picture(Resolution resolution) {
+        return render(scene_, primitives_, octree_, profile_, resolution);
+    }
+    std::vector<RayAnswer> answers(std::span<const Ray> rays) const {
+        return closest_hits(scene_, primitives_, &octree_, profile_, rays);
+    }
+    void describe(Pass& pass) const { pass.tree = figures(octree_); }
+    void count(Pass& pass, Resolution resolution) const {
+        pass.counts = count_events(scene_, primitives_, octree_, profile_, resolution);
+    }
+
+  private:
+    const Scene& scene_;
+    const Profile& profile_;
+    Primitives primitives_;
+    Octree octree_;
+};
+
+/// The other: the tile tracer.
+class TileRun {
+  public:
+    TileRun(const Scene& scene, const Options& options, const Profile& profile)
+        : primitives_(flatten(scene, LeafContent::kPrimitives)),
+          options_(fast_options(options, profile)),
+          tracer_(scene, primitives_, options_) {}
+
+    Image picture(Resolution resolution) { return tracer_.render(resolution); }
+    std::vector<RayAnswer> answers(std::span<const Ray> rays) const {
+        return tracer_.closest_hits(rays);
+    }
+    void describe(Pass& pass) const { pass.tiles = figures(tracer_, options_); }
+    void count(Pass& pass, Resolution resolution) {
+        pass.tiles->counts = tracer_.count_rays(resolution);
+        tracer_.render(resolution, &pass.tiles->stage_seconds.emplace());
+    }
+
+  private:
+    Primitives primitives_;
+    FastOptions options_;
+    FastTracer tracer_;
+};
+
+template <typename Run>
+Pass run_repeatedly(const Scene& scene, const Options& options, const Profile& profile,
+                    int repetitions, Image& picture) {
+    Pass pass;
+    pass.name = name_of(kOctreeTypes, profile.type);
+    std::optional<Run> run;
+    const ProcessStopwatch process;
+    for (int i = 0; i < repetitions; ++i) {
+        run.reset();
+        const StageStopwatch build;
+        run.emplace(scene, options, profile);
+        note(pass.build_seconds, pass.build_wall_seconds, build);
+        picture = Image();  // two pictures need not be held at once
+        const StageStopwatch trace;
+        picture = run->picture(options.resolution);
+        note(pass.trace_seconds, pass.trace_wall_seconds, trace);
+    }
+    pass.process = process.elapsed();
+    run->describe(pass);
+    if (options.counters || options.json) run->count(pass, options.resolution);
+    return pass;
+}
+
+template <typename Run>
+Pass answer_once(const Scene& scene, const Options& options, std::span<const Ray> rays,
+                 std::vector<RayAnswer>& answers) {
+    Pass pass;
+    pass.name = name_of(kOctreeTypes, options.profile.type);
+    const ProcessStopwatch process;
+    const StageStopwatch build;
+    const Run run(scene, options, options.profile);
+    note(pass.build_seconds, pass.build_wall_seconds, build);
+    const StageStopwatch trace;
+    answers = run.answers(rays);
+    note(pass.trace_seconds, pass.trace_wall_seconds, trace);
+    pass.process = process.elapsed();
+    run.describe(pass);
+    return pass;
+}
+
+}  // namespace
+
+FastOptions fast_options(const Options& options, const Profile& profile) {
+    FastOptions fast;
+    fast.type = profile.type;
+    fast.isa =
+        options.isa == InstructionSet::kBest ? supported_instruction_sets().front() : options.isa;
+    fast.threads = options.threads > 0
+                       ? options.threads
+                       : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    return fast;
+}
+
+Pass run_pass(const Scene& scene, const Options& options, const Profile& profile, int repetitions,
+              Image& picture) {
+    if (profile.tracer == TracerChoice::kTiles)
+        return run_repeatedly<TileRun>(scene, options, profile, repetitions, picture);
+    return run_repeatedly<SerialRun>(scene, options, profile, repetitions, picture);
+}
+
+Pass run_brute_force(const Scene& scene, const Options& options, Image& picture) {
+    Pass pass;
+    pass.name = "brute force";
+    const Primitives primitives = flatten(scene, options.profile.leaves);
+    const ProcessStopwatch process;
+    const StageStopwatch trace;
+    picture = render_brute_force(scene, primitives, options.profile, options.resolution);
+    note(pass.trace_seconds, pass.trace_wall_seconds, trace);
+    pass.process = process.elapsed();
+    return pass;
+}
+
+Pass run_rays(const Scene& scene, const Options& options, std::span<const Ray> rays,
+              std::vector<RayAnswer>& answers) {
+    if (options.profile.tracer == TracerChoice::kTiles)
+        return answer_once<TileRun>(scene, options, rays, answers);
+    return answer_once<SerialRun>(scene, options, rays, answers);
+}
+
+}  // namespace nuvo::app

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "nuvo/app/options.h"
+#include "nuvo/app/report.h"
+#include "nuvo/image/image.h"
+#include "nuvo/scene/scene.h"
+
+namespace nuvo::app {
+
+/// The tile tracer as the options and the profile ask for it, nothing left open.
+FastOptions fast_options(const Options& options, const Profile& profile);
+
+/// Builds and traces `repetitions` times by the profile's tracer; the last picture stays in
+/// `picture`. Counts in runs of their own where the options want counts. [thesis 5.7.1]
+Pass run_pass(const Scene& scene, const Options& options, const Profile& profile, int repetitions,
+              Image& picture);
+
+/// Renders with every primitive against every ray.
+Pass run_brute_force(const Scene& scene, const Options& options, Image& picture);
+
+/// Builds once and answers the rays.
+Pass run_rays(const Scene& scene, const Options& options, std::span<const Ray> rays,
+              std::vector<RayAnswer>& answers);
+
+}  // namespace nuvo::app

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "compact_split.h"
+
+namespace nuvo {
+
+/// What a voxel may still take: a share of the whole tree's limits, in proportion to its items, so
+/// that no part of the scene takes what another needs.
+struct Allowance {
+    double references = 0;
+    double nodes = 0;  ///< below the voxel's own
+
+    bool permits(const Split& split) const {
+        return static_cast<double>(split.references()) <= references && nodes >= 8;
+    }
+    /// The share of an octant of what is left beside the octants' own nodes.
+    Allowance share(const Split& split, unsigned octant) const {
+        const double part =
+            static_cast<double>(split.counts[octant]) / static_cast<double>(split.references());
+        return {references * part, (nodes - split.octants()) * part};
+    }
+};
+
+/// A voxel still to be built: its box, its level (the root's is 1) and its allowance.
+struct Place {
+    Bounds3T<float> voxel;
+    int level = 1;
+    Allowance allowance;
+
+    Place octant(const Split& split, unsigned o) const {
+        return {octant_box(split.voxel, o), level + 1, allowance.share(split, o)};
+    }
+};
+
+/// Octants of the items of the voxel that was split last, and space for another try.
+struct SplitMasks {
+    std::vector<std::uint8_t> kept;
+    std::vector<std::uint8_t> tried;
+};
+
+/// The cut of a voxel with these items, if there is one that is worth trying; the octants of the
+/// items are then in masks.kept. `mark(cut, masks)` sets the octants and returns their counts.
+/// Where the sweep finds little, because it sees the items' boxes only, the centre is tried, too.
+template <typename Mark>
+std::optional<Split> find_split(CutRule rule, const Prices& prices, const Place& place,
+                                ItemSpan items, BoxSpan boxes, SplitMasks& masks, Mark&& mark) {
+    constexpr double kLittle = 0.75;  // of the cost of a leaf; commonly half of it is left
+    if (place.level >= CompactOctree::kMaxDepth || !prices.may_pay(items.size()))
+        return std::nullopt;
+    if (masks.kept.size() < items.size()) masks.kept.resize(items.size());
+    const auto attempt = [&](CutRule by, std::vector<std::uint8_t>& out) -> std::optional<Split> {
+        const std::optional<CutVoxel> cut = choose_cut(by, place.voxel, items, boxes);
+        if (!cut) return std::nullopt;
+        return Split{*cut, mark(*cut, out.data())};
+    };
+    std::optional<Split> split = attempt(rule, masks.kept);
+    if (rule == CutRule::kSweep && items.size() >= kManyItems &&
+        (!split || prices.after(*split) > kLittle * prices.leaf(place.voxel, items.size()))) {
+        if (masks.tried.size() < items.size()) masks.tried.resize(items.size());
+        const std::optional<Split> other = attempt(CutRule::kSpatial, masks.tried);
+        if (other && (!split || prices.after(*other) < prices.after(*split))) {
+            split = other;
+            std::swap(masks.kept, masks.tried);
+        }
+    }
+    if (!split || !place.allowance.permits(*split) || !prices.worth_trying(*split, items.size()))
+        return std::nullopt;
+    return split;
+}
+
+}  // namespace nuvo
