@@ -25,6 +25,18 @@ TEST(HardCases, EveryRayOfEveryClassIsWhatExactArithmeticSays) {
     }
 }
 
+TEST(HardCases, FastSingleRaysAreWhatExactArithmeticSays) {
+    RunOptions options;
+    options.rays = 30'000;
+    options.seed = 77;
+    options.rays_per_scene = 100;
+    options.fast = true;
+    std::ostringstream report;
+    const std::vector<ClassTally> tallies = run(options, report);
+    EXPECT_EQ(tallies.size(), hard_classes().size());
+    EXPECT_TRUE(print(report, tallies)) << report.str();
+}
+
 TEST(HardCases, TheOracleSeesTheErrorsOfPlainTests) {
     RunOptions options;
     options.rays = 10'000;

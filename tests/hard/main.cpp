@@ -21,6 +21,7 @@ constexpr const char* kUsage =
     "  --pictures     instead: pictures of testfiles/hard against the reference, 160 x 90\n"
     "  --scenes=N     instead: N scenes of the classes, lit from hard places, against the "
     "reference\n"
+    "  --fast         with --rays: by the fast tracer's single rays\n"
     "  --precision=P  exact, double or float tests, to see the oracle find their errors (exact)\n"
     "  --write-scenes instead: write testfiles/hard anew\n"
     "  --threads=N    batches at once (as many as the machine has)\n"
@@ -49,6 +50,7 @@ bool read_flag(const std::string& flag, Flags& flags) {
     std::uint64_t number = 0;
     if (name == "--list") return flags.list = true;
     if (name == "--pictures") return flags.pictures = true;
+    if (name == "--fast") return flags.run.fast = true;
     if (name == "--write-scenes") return flags.write_scenes = true;
     if (name == "--help" || name == "-h") return flags.help = true;
     if (name == "--class") {

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "classes.h"
+#include "nuvo/render/fast.h"
 #include "oracle.h"
 
 namespace nuvo::hard {
@@ -87,6 +88,15 @@ std::string judge_one(const Oracle& oracle, const Ray& ray, const RayAnswer& ans
     return "";
 }
 
+std::vector<RayAnswer> fast_answers(const Scene& scene, std::span<const Ray> rays,
+                                    std::uint64_t number) {
+    const Primitives primitives = flatten(scene, LeafContent::kPrimitives);
+    const auto sets = supported_instruction_sets();
+    FastOptions options;
+    options.isa = sets[number % sets.size()];
+    return FastTracer(scene, primitives, options).closest_hits(rays);
+}
+
 Tally run_batch(const HardClass& hard_class, const Batch& batch, const RunOptions& options,
                 std::ostream& faults) {
     const auto kind = static_cast<Coordinates>(batch.number % 3);
@@ -99,7 +109,9 @@ Tally run_batch(const HardClass& hard_class, const Batch& batch, const RunOption
     Aims aims(scene, octree, random);
     std::vector<Ray> rays;
     for (int i = 0; i < batch.rays; ++i) rays.push_back(hard_class.ray(scene, aims, random));
-    const auto answers = closest_hits(scene, primitives, &octree, profile, rays);
+    const auto answers = options.fast
+                             ? fast_answers(scene, rays, batch.number)
+                             : closest_hits(scene, primitives, &octree, profile, rays);
     const std::string label = std::string(hard_class.name) + " batch " +
                               std::to_string(batch.number) + " seed " +
                               std::to_string(options.seed);

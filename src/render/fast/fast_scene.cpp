@@ -161,18 +161,15 @@ FastScene::FastScene(const Scene& scene, const Primitives& primitives, OctreeTyp
         for (PrimitiveId id = 0; id < slot_end_; ++id)
             ids_[next[kind_of(scene.objects[primitives.sources[id].object])]++] = id;
     }
-    octree_ =
-        octree(type == OctreeType::kUniform ? CutRule::kSpatial : CutRule::kSweep, {}, threads);
+    CompactBuildOptions options;
+    options.rule = type == OctreeType::kUniform ? CutRule::kSpatial : CutRule::kSweep;
+    options.threads = threads;
+    octree_ = octree(options);
 }
 
-CompactOctree FastScene::octree(CutRule rule, const CompactCosts& costs, int threads) const {
-    const LocalItems items = LocalItemsMaker(*this).make(threads);
-    CompactBuildOptions options;
-    options.rule = rule;
-    options.costs = costs;
-    if(getenv("MR")) options.max_references_per_item=atof(getenv("MR"));
+CompactOctree FastScene::octree(CompactBuildOptions options) const {
+    const LocalItems items = LocalItemsMaker(*this).make(options.threads);
     options.overlaps = octant_test(items);
-    options.threads = threads;
     return build_compact_octree(items.boxes, options);
 }
 

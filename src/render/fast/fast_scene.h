@@ -38,8 +38,8 @@ class FastScene {
     const Primitives& primitives() const { return primitives_; }
     const LocalFrame& frame() const { return frame_; }
     const CompactOctree& octree() const { return octree_; }
-    /// Another one, for other work.
-    CompactOctree octree(CutRule rule, const CompactCosts& costs, int threads) const;
+    /// Another one; `overlaps` of the options is filled in.
+    CompactOctree octree(CompactBuildOptions options) const;
 
     Slot triangle_end() const { return triangle_end_; }
     Slot sphere_end() const { return sphere_end_; }

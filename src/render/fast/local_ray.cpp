@@ -6,9 +6,6 @@
 namespace nuvo {
 namespace {
 
-constexpr std::uint32_t kRow = kWideLanes;  // floats, in WideNode
-constexpr std::uint32_t kToHigh = 3 * kRow;
-
 constexpr int kExponentPlace = 52;
 constexpr std::uint64_t kExponentBias = 1023;
 
@@ -58,6 +55,7 @@ LocalRay::LocalRay(const Ray& ray, const LocalFrame& frame, float reach) {
             o = o + d * way;
         }
     }
+    // After an advance nothing is met before s = 1/2: the box is 1 away on an axis, and |d| < 2.
     behind = advance > 0 ? -0.25F : 0.0F;
     for (int axis = 0; axis < 3; ++axis) {
         origin[axis] = o[axis];
@@ -65,8 +63,8 @@ LocalRay::LocalRay(const Ray& ray, const LocalFrame& frame, float reach) {
         direction[axis] = static_cast<float>(d[axis]);
     }
     prepare_slabs(reach);
-    direction_sum = static_cast<float>((std::fabs(d.x) + std::fabs(d.y) + std::fabs(d.z)) *
-                                       (1 + 0x1p-22));
+    direction_sum =
+        static_cast<float>((std::fabs(d.x) + std::fabs(d.y) + std::fabs(d.z)) * (1 + 0x1p-22));
     square = static_cast<float>(dot(d, d));
     // A point of the ray at a box's entry lies within 2 margins of that box, which is to be less
     // than 2^14 units of the leaf's grid; and its error less than 2^-6 units.
@@ -91,8 +89,6 @@ void LocalRay::prepare_slabs(float reach) {
         near_add[axis] = static_cast<float>(at - slack);
         far_add[axis] = static_cast<float>(at + slack);
         signs |= negative << axis;
-        near_offset[axis] = axis * kRow + negative * kToHigh;
-        far_offset[axis] = axis * kRow + (1 - negative) * kToHigh;
     }
 }
 

@@ -22,7 +22,7 @@ namespace nuvo {
 inline constexpr float kFloatUnit = 0x1p-24F;
 inline constexpr double kSlabRoundings = 8;
 
-struct alignas(64) LocalRay {
+struct LocalRay {
     /// False where the numbers leave the range of the bounds: the ray is not to be walked.
     bool valid = false;
     /// Components of d are kept off 0 by this; s d stays as near to the ray as slabs are wide.
@@ -31,19 +31,17 @@ struct alignas(64) LocalRay {
     float inverse[3];
     float near_add[3];
     float far_add[3];
-    std::uint32_t near_offset[3];  ///< of the nearer faces, in floats from WideNode::low
-    std::uint32_t far_offset[3];
-    std::uint32_t signs;  ///< of d: which of WideNode::order
+    std::uint32_t signs;  ///< of d, 1 x + 2 y + 4 z: which of WideNode::order
     float direction[3];
     float direction_sum;  ///< bounds |d.x| + |d.y| + |d.z|
     float square;         ///< |d|^2 rounded
-    float behind;         ///< s at or below the true origin; hits at larger s are in front of it
+    float behind;         ///< the true origin's s, or between it and all that may be met
     float least_unit;     ///< leaves with a finer grid are not tested in float
     double origin[3];
-    double step[3];       ///< d
-    double error = 0;     ///< see above
-    double advance = 0;   ///< in units of d
-    double scale = 1;     ///< s + advance = t * scale, a power of two
+    double step[3];      ///< d
+    double error = 0;    ///< see above
+    double advance = 0;  ///< in units of d
+    double scale = 1;    ///< s + advance = t * scale, a power of two
 
     LocalRay() = default;
     LocalRay(const Ray& ray, const LocalFrame& frame, float reach);

@@ -34,7 +34,8 @@ constexpr std::array<FacesOnWay, 8> faces_by_signs() {
     for (std::uint32_t signs = 0; signs < 8; ++signs)
         for (std::uint32_t axis = 0; axis < 3; ++axis) {
             const std::uint32_t negative = signs >> axis & 1;
-            faces[signs].near[axis] = static_cast<std::uint32_t>((axis + 3 * negative) * kWideLanes);
+            faces[signs].near[axis] =
+                static_cast<std::uint32_t>((axis + 3 * negative) * kWideLanes);
             faces[signs].far[axis] =
                 static_cast<std::uint32_t>((axis + 3 * (1 - negative)) * kWideLanes);
         }
@@ -54,23 +55,21 @@ struct RayFlight {
         std::uint32_t unused[15];
     };
 
-    std::uint32_t next = 0;   ///< what comes next (WideNode::child), or kLanded
-    float next_entry = 0;     ///< where the ray enters it
-    float best = 0;           ///< the nearest sure hit's upper bound
+    std::uint32_t next = 0;  ///< what comes next (WideNode::child), or kLanded
+    float next_entry = 0;    ///< where the ray enters it
+    float best = 0;          ///< the nearest sure hit's upper bound
     std::uint32_t candidate_count = 0;
     Level* top = nullptr;     ///< the first free level; something waits in each below it
-    const void* block = nullptr;  ///< the ray's RayBlock,
-    std::size_t lane = 0;         ///< and its lane in it
-    const FacesOnWay* faces = nullptr;
-    std::size_t signs = 0;    ///< of the direction: which of WideNode::order
+    std::uint32_t signs = 0;  ///< of the direction: which of WideNode::order
     std::size_t index = 0;    ///< among the batch's rays
     /// The first one holds only kLanded.
     Level levels[CompactOctree::kMaxDepth + 2];
     RayCandidate candidates[kMaxCandidates];
 
     /// Sets out for the root.
-    void start(std::size_t ray_index) {
+    void start(std::size_t ray_index, std::uint32_t ray_signs) {
         index = ray_index;
+        signs = ray_signs;
         best = std::numeric_limits<float>::infinity();
         candidate_count = 0;
         levels[0].entry[0] = 0;

@@ -14,7 +14,9 @@
 #include "triangle_roots.h"
 #include "wide_octree.h"
 
-// Rays that have nothing in common, one at a time: 16 voxels or 16 primitives to a step.
+// Rays that have nothing in common, each on a way of its own: a step decides on 16 voxels or 16
+// primitives at once (flights.h), floats with proven bounds leave almost nothing open, and what they
+// do leave goes to the predicates of the serial tracer.
 
 namespace nuvo {
 
@@ -46,6 +48,8 @@ class SingleRays {
                                        std::span<const RayCandidate> candidates) const;
     /// The nearest primitive among all; kNoSlot: none.
     Slot by_force(const Ray& ray) const;
+    /// The answers to rays of which found[i] is known to be what ray i meets first.
+    void answer(std::span<const Ray> rays, const Slot* found, RayAnswer* answers) const;
 
   private:
     // Where the triangles of an object are.
@@ -55,7 +59,6 @@ class SingleRays {
         std::int64_t shape;
     };
 
-    void answer(std::span<const Ray> rays, const Slot* found, RayAnswer* answers) const;
     double root_of(const Ray& ray, Slot slot) const;
 
     const FastScene& scene_;
@@ -64,7 +67,7 @@ class SingleRays {
     std::vector<MeshPlace> meshes_;  // by object
     TriangleRootStage roots_;
     float bounds_scale_;
-    void (*walk_)(const SingleRays&, std::span<const Ray>, Slot*);
+    void (*walk_)(const SingleRays&, std::span<const Ray>, RayAnswer*);
 };
 
 }  // namespace nuvo

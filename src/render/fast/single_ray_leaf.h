@@ -48,26 +48,40 @@ struct Vector16 {
     friend HWY_INLINE Floats dot(const Vector16& a, const Vector16& b) {
         return mul_add(a.z, b.z, mul_add(a.y, b.y, a.x * b.x));
     }
-    friend HWY_INLINE Floats norm(const Vector16& a) { return max(abs(a.x), max(abs(a.y), abs(a.z))); }
+    friend HWY_INLINE Floats norm(const Vector16& a) {
+        return max(abs(a.x), max(abs(a.y), abs(a.z)));
+    }
     friend HWY_INLINE Floats sum(const Vector16& a) { return abs(a.x) + abs(a.y) + abs(a.z); }
 };
 
+/// For exponents of normal numbers.
+HWY_INLINE double power_of_two(int exponent) {
+    constexpr int kBias = 1023;
+    constexpr int kPlace = 52;
+    return std::bit_cast<double>(static_cast<std::uint64_t>(kBias + exponent) << kPlace);
+}
+HWY_INLINE float unit_of(const WideLeafHead& head) {
+    return static_cast<float>(power_of_two(head.exponent));
+}
+/// The first `count` lanes, or all.
+HWY_INLINE std::uint32_t first_lanes(std::uint32_t count) {
+    return count < kWideLanes ? (1U << count) - 1 : 0xffffU;
+}
+
 /// A ray at one leaf.
 struct RayAtLeaf {
-    /// For exponents of normal numbers.
-    static HWY_INLINE double power_of_two(int exponent) {
-        return std::bit_cast<double>(static_cast<std::uint64_t>(1023 + exponent) << 52);
-    }
-    static HWY_INLINE float unit_of(const WideLeafHead& head) {
-        return static_cast<float>(power_of_two(head.exponent));
-    }
     HWY_INLINE RayAtLeaf(const RayBlock& block, std::size_t lane, const WideLeafHead& head,
                          float entry_at)
-        : direction_sum(block.direction_sum[lane]), entry(entry_at), unit(unit_of(head)) {
+        : direction_sum(block.direction_sum[lane]),
+          square(block.square[lane]),
+          point_error(block.error[lane]),
+          behind(block.behind[lane]),
+          entry(entry_at),
+          unit(unit_of(head)) {
         const double inverse = power_of_two(-head.exponent);
         for (int axis = 0; axis < 3; ++axis) {
-            const double p = block.origin[axis][lane] +
-                             static_cast<double>(entry) * block.step[axis][lane];
+            const double p =
+                block.origin[axis][lane] + static_cast<double>(entry) * block.step[axis][lane];
             from[axis] = static_cast<float>(p);
             at[axis] = static_cast<float>((p - static_cast<double>(head.base[axis])) * inverse);
         }
@@ -85,7 +99,10 @@ struct RayAtLeaf {
     }
 
     Vector16 direction;
-    float direction_sum;  ///< bounds |d.x| + |d.y| + |d.z|
+    float direction_sum;  ///< the next four: as in LocalRay
+    float square;
+    float point_error;
+    float behind;
     float entry;
     float unit;
     float from[3];  ///< the point of entry, local
@@ -106,9 +123,9 @@ HWY_INLINE Vector16 load_corner(const std::uint16_t* corners, std::size_t stride
 /// Edge functions d . (q x p) of two corners: p and q off by e move it by |d|_1 (2 e (|p| + |q|) +
 /// 2 e^2), and 8 roundings of six terms |d|_1 M^2 / 3 and one of d add less than 18 u |d|_1 M^2.
 /// The plane: an edge vector is off by 2 e + 2 u M < 2.125 e, a component of the normal n by less
-/// than k = 2 * 2.125 e (|e1| + |e2|) + 2 (2.125 e)^2 + 4 u |e1| |e2| < 9 e (L + e) for L = max(|e1|,
-/// |e2|), L <= M; d . n by k |d|_1 and n . a by k |a|_1 + e |n|_1, with three roundings more of the
-/// terms, which the ninth e covers (9 instead of 8.5; 4 u M^2 < 0.02 e M).
+/// than k = 2 * 2.125 e (|e1| + |e2|) + 2 (2.125 e)^2 + 4 u |e1| |e2| < 9 e (L + e) for L =
+/// max(|e1|, |e2|), L <= M; d . n by k |d|_1 and n . a by k |a|_1 + e |n|_1, with three roundings
+/// more of the terms, which the ninth e covers (9 instead of 8.5; 4 u M^2 < 0.02 e M).
 HWY_INLINE LeafHits test_triangles(const RayAtLeaf& ray, const std::uint16_t* corners,
                                    std::size_t stride, float scale) {
     const Vector16 a = load_corner(corners, stride, 0, ray);
@@ -160,32 +177,34 @@ HWY_INLINE LeafHits test_triangles(const RayAtLeaf& ray, const std::uint16_t* co
 /// f = p - c is off by e = 3 u (p and c, at most 1.01 each, and the difference) + 2 u |f|. What is
 /// left of it across d, l = f - (f.d / d.d) d, is off by e and 16 roundings of |f| <= 16 u |f|; l.l
 /// by 2 |l| that + that^2.
-HWY_INLINE LeafHits test_spheres(const RayAtLeaf& ray, const RayBlock& block, std::size_t lane,
-                                 const float* values, std::size_t stride, std::uint32_t count,
-                                 float scale) {
+HWY_INLINE LeafHits test_spheres(const RayAtLeaf& ray, const float* values, std::size_t stride,
+                                 std::uint32_t count, float scale) {
     // What stands behind a leaf is not to be taken for a float: it may be a slow, subnormal one.
-    const RayMask present = RayMask::from_bits(count < kWideLanes ? (1U << count) - 1 : 0xffffU);
+    const RayMask present = RayMask::from_bits(first_lanes(count));
     const Vector16 f = {Floats(ray.from[0]) - Floats::load(values, present),
                         Floats(ray.from[1]) - Floats::load(values + stride, present),
                         Floats(ray.from[2]) - Floats::load(values + 2 * stride, present)};
     const Floats r = Floats::load(values + 3 * stride, present);
     const Vector16& d = ray.direction;
-    const Floats inverse(1 / block.square[lane]);
+    const Floats inverse(1 / ray.square);
     const Floats middle = -dot(f, d) * inverse;
     const Vector16 l = {mul_add(middle, d.x, f.x), mul_add(middle, d.y, f.y),
                         mul_add(middle, d.z, f.z)};
     const Floats across = dot(l, l);
     const Floats depth = mul_add(r, r, -across);
     const Floats error = mul_add(sum(f), Floats(scale * 32 * kFloatUnit),
-                                 Floats(scale * (8 * kFloatUnit + block.error[lane])));
+                                 Floats(scale * (8 * kFloatUnit + ray.point_error)));
     const Floats depth_error = mul_add(mul_add(sum(l), Floats(2.0F), error * Floats(3.0F)), error,
                                        mul_add(r, r, across) * Floats(scale * 16 * kFloatUnit));
     const RayMask meets = depth > depth_error;
     const RayMask misses = depth < -depth_error;
     const Floats half = sqrt(max(depth, Floats(0.0F)) * inverse);
     // sqrt(depth +- error) differs by less than error / sqrt(depth); |d| >= 1.
-    const Floats half_error = select(meets, depth_error / (half * Floats(block.square[lane])) + half * Floats(8 * kFloatUnit), sqrt(depth_error + depth_error)) ;
-    const Floats slack = half_error + error + (abs(middle) + Floats(ray.entry) + half) * Floats(scale * 8 * kFloatUnit);
+    const Floats half_error =
+        select(meets, depth_error / (half * Floats(ray.square)) + half * Floats(8 * kFloatUnit),
+               sqrt(depth_error + depth_error));
+    const Floats slack = half_error + error +
+                         (abs(middle) + Floats(ray.entry) + half) * Floats(scale * 8 * kFloatUnit);
     const Floats near = Floats(ray.entry) + (middle - half);
     const Floats far = Floats(ray.entry) + (middle + half);
     const Floats behind(block.behind[lane]);

@@ -147,11 +147,11 @@ Sorted sort_by_kind(const FastScene& scene, std::span<const Slot> slots) {
 }  // namespace
 
 std::uint32_t append_leaf(const FastScene& scene, std::span<const Slot> slots,
-                          std::vector<std::uint32_t>& words) {
+                          const Bounds3T<float>& box, std::vector<std::uint32_t>& words) {
     const Sorted sorted = sort_by_kind(scene, slots);
-    Bounds3 box;
-    for (const Triangle& t : sorted.corners) box = box.extended(t.bounds());
-    const Grid grid = box.empty() ? Grid{} : grid_over(box);
+    Bounds3 span{Point3(box.min), Point3(box.max)};
+    for (const Triangle& t : sorted.corners) span = span.extended(t.bounds());
+    const Grid grid = span.empty() ? Grid{} : grid_over(span);
     WideLeafHead head;
     for (int axis = 0; axis < 3; ++axis) head.base[axis] = grid.base[axis];
     head.exponent = static_cast<std::int8_t>(grid.exponent);
@@ -176,10 +176,13 @@ Bounds3T<float> clipped_box(const FastScene& scene, Slot slot, const Bounds3T<fl
         const Triangle t = local_triangle(scene, slot);
         Polygon polygon{t.a, t.b, t.c};
         std::size_t count = 3;
+        const Bounds3 whole = t.bounds();
         for (int axis = 0; axis < 3 && count > 0; ++axis) {
             // Room for the corners' own rounding.
-            count = cut_polygon(polygon, count, axis, voxel.min[axis] - 0x1p-40, true);
-            count = cut_polygon(polygon, count, axis, voxel.max[axis] + 0x1p-40, false);
+            const double low = voxel.min[axis] - 0x1p-40;
+            const double high = voxel.max[axis] + 0x1p-40;
+            if (whole.min[axis] < low) count = cut_polygon(polygon, count, axis, low, true);
+            if (whole.max[axis] > high) count = cut_polygon(polygon, count, axis, high, false);
         }
         for (std::size_t i = 0; i < count; ++i) box = box.extended(polygon[i]);
     } else {

@@ -3,25 +3,40 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
 #include "wide_leaf.h"
 
-// From the compact octree, in two passes. The first goes up: boxes from what the leaves hold, and
-// by the surface area heuristic over these boxes whether a subtree should be a leaf. The second
-// goes down: the voxels of a node are replaced by their octants, the largest first, while there are
-// no more than 16.
+// From the compact octree, in two passes. The first goes up: tight boxes from what the leaves hold,
+// and by the surface area heuristic over these boxes what a voxel costs as a leaf, as a node, and
+// as part of a node above it that has so many lanes left (Ylitie, Karras and Laine 2017, "Efficient
+// incoherent ray traversal on GPUs through compressed wide BVHs", section 3.1). The second goes
+// down and takes the cheapest.
 
 namespace nuvo {
 namespace {
 
 // Prices of a step through a node, of reaching a leaf and of a register of primitives there,
-// measured on random rays.
-float E(const char*n,float d){const char*e=getenv(n);return e?atof(e):d;}
-float kNodeCost = E("KN",1);
-float kLeafCost = E("KL",1);
-float kBlockCost = E("KB",1.5F);
+// measured on random rays. What all of the structure weighs when it has as many bytes as the
+// primitives would have, each listed once, is the price of memory.
+constexpr float kNodeCost = 1;
+constexpr float kLeafCost = 1;
+constexpr float kBlockCost = 1.5F;
+constexpr float kMemoryCost = 0.4F;
+// What a leaf takes for each item: nine corners' numbers of two bytes, and its slot.
+constexpr float kItemBytes = 9 * sizeof(std::uint16_t) + sizeof(Slot);
+
+CompactBuildOptions octree_options() {
+    CompactBuildOptions options;
+    options.rule = CutRule::kSweep;
+    // Cut finely: the passes below take back what is not worth it.
+    options.costs = {3, 1, 0};  // lines have no width
+    // Keeps the copies of a closed mesh within the size of its peers' structures.
+    options.max_references_per_item = 3.2;
+    return options;
+}
 
 float half_area(const Bounds3T<float>& box) {
     if (box.empty()) return 0;
@@ -43,10 +58,12 @@ struct Voxel {
 class WideBuilder {
   public:
     WideBuilder(const FastScene& scene, const CompactOctree& octree, WideOctree& out)
-        : scene_(scene), octree_(octree), out_(out), voxels_(octree_.nodes.size()) {}
+        : scene_(scene), octree_(octree), out_(out), voxels_(octree_.nodes.size()) {
+        const float bytes = kItemBytes * static_cast<float>(std::max(scene.slot_end(), Slot{1}));
+        byte_cost_ = kMemoryCost * half_area(octree.bounds) / bytes;
+    }
 
     void build() {
-        byte_cost_ = E("MU",0)*half_area(octree_.bounds)/(22.0F*scene_.slot_end());
         measure(0, octree_.bounds);
         out_.nodes.emplace_back();
         std::vector<Inner> voxels;
@@ -62,12 +79,11 @@ class WideBuilder {
     }
 
   private:
-    static constexpr std::size_t kMost = std::numeric_limits<std::uint32_t>::max();
-
     float leaf_cost(const Voxel& voxel) const {
         const auto blocks = static_cast<float>((voxel.count + kWideLanes - 1) / kWideLanes);
         return half_area(voxel.box) * (kLeafCost + kBlockCost * blocks) +
-               byte_cost_ * (16.0F + 22.0F * static_cast<float>(voxel.count));
+               byte_cost_ * (static_cast<float>(sizeof(WideLeafHead)) +
+                             kItemBytes * static_cast<float>(voxel.count));
     }
 
     // Fills in the voxels from this one down.
@@ -75,17 +91,7 @@ class WideBuilder {
         const CompactNode& node = octree_.nodes[place];
         Voxel& voxel = voxels_[place];
         if (node.is_leaf()) {
-            voxel.first = static_cast<std::uint32_t>(items_.size());
-            for (std::uint32_t i = 0; i < node.item_count(); ++i) {
-                const Slot slot = octree_.items[node.first_item() + i];
-                const Bounds3T<float> box = clipped_box(scene_, slot, bounds);
-                if (box.empty()) continue;
-                voxel.box = voxel.box.extended(box);
-                items_.push_back(slot);
-            }
-            voxel.count = static_cast<std::uint32_t>(items_.size()) - voxel.first;
-            voxel.small = voxel.leaf = true;
-            voxel.forest.fill(leaf_cost(voxel));
+            measure_leaf(node, bounds, voxel);
             return;
         }
         for (unsigned octant = 0; octant < 8; ++octant) {
@@ -98,17 +104,29 @@ class WideBuilder {
             voxel.box = voxel.box.extended(voxels_[child].box);
         }
         gather_items(node, voxel);
-        const std::vector<Forest> sums = sums_of(node);
-        voxel.forest = sums.back();
-        const float as_node =
-            half_area(voxel.box) * kNodeCost + byte_cost_ * sizeof(WideNode) +
-            voxel.forest[kWideLanes - 1];
+        voxel.forest = sums_of(node).all();
+        const float as_node = half_area(voxel.box) * kNodeCost +
+                              byte_cost_ * static_cast<float>(sizeof(WideNode)) +
+                              voxel.forest[kWideLanes - 1];
         const float as_leaf =
             voxel.small ? leaf_cost(voxel) : std::numeric_limits<float>::infinity();
         voxel.leaf = as_leaf <= as_node;
         voxel.forest[0] = std::min(as_leaf, as_node);
         for (std::size_t k = 1; k < kWideLanes; ++k)
             voxel.forest[k] = std::min(voxel.forest[k], voxel.forest[k - 1]);
+    }
+    void measure_leaf(const CompactNode& node, const Bounds3T<float>& bounds, Voxel& voxel) {
+        voxel.first = static_cast<std::uint32_t>(items_.size());
+        for (std::uint32_t i = 0; i < node.item_count(); ++i) {
+            const Slot slot = octree_.items[node.first_item() + i];
+            const Bounds3T<float> box = clipped_box(scene_, slot, bounds);
+            if (box.empty()) continue;
+            voxel.box = voxel.box.extended(box);
+            items_.push_back(slot);
+        }
+        voxel.count = static_cast<std::uint32_t>(items_.size()) - voxel.first;
+        voxel.small = voxel.leaf = true;
+        voxel.forest.fill(leaf_cost(voxel));
     }
 
     // The items of all octants without repetition, if they are few.
@@ -130,26 +148,27 @@ class WideBuilder {
         items_.insert(items_.end(), gathered_.begin(), gathered_.end());
     }
 
-    // sums[i][k - 1]: the least cost of the first i + 1 octants in at most k lanes; infinite where
+    // sum[i][k - 1]: the least cost of the first i + 1 octants in at most k lanes; infinite where
     // k is too small.
     using Forest = std::array<float, kWideLanes>;
-    std::vector<Forest> sums_of(const CompactNode& node) const {
-        std::vector<Forest> sums;
-        const int octants = std::popcount(node.mask());
-        for (int i = 0; i < octants; ++i) {
+    struct Sums {
+        std::size_t octants;
+        std::array<Forest, 8> sum;
+        const Forest& all() const { return sum[octants - 1]; }
+    };
+    Sums sums_of(const CompactNode& node) const {
+        Sums sums;
+        sums.octants = static_cast<std::size_t>(std::popcount(node.mask()));
+        sums.sum[0] = voxels_[node.first_child()].forest;
+        for (std::size_t i = 1; i < sums.octants; ++i) {
             const Forest& forest =
                 voxels_[node.first_child() + static_cast<std::uint32_t>(i)].forest;
-            if (i == 0) {
-                sums.push_back(forest);
-                continue;
-            }
-            Forest next;
-            next.fill(std::numeric_limits<float>::infinity());
-            const Forest& before = sums.back();
-            for (std::size_t j = static_cast<std::size_t>(i) - 1; j + 1 < kWideLanes; ++j)
+            const Forest& before = sums.sum[i - 1];
+            Forest& sum = sums.sum[i];
+            sum.fill(std::numeric_limits<float>::infinity());
+            for (std::size_t j = i - 1; j + 1 < kWideLanes; ++j)
                 for (std::size_t k = 0; j + k + 1 < kWideLanes; ++k)
-                    next[j + k + 1] = std::min(next[j + k + 1], before[j] + forest[k]);
-            sums.push_back(next);
+                    sum[j + k + 1] = std::min(sum[j + k + 1], before[j] + forest[k]);
         }
         return sums;
     }
@@ -166,33 +185,34 @@ class WideBuilder {
     // Appends the octants of a voxel, or what stands for them, in at most `lanes` lanes.
     void distribute(const Inner& voxel, std::size_t lanes, std::vector<Inner>& out) const {
         const CompactNode& node = octree_.nodes[voxel.place];
-        const std::vector<Forest> sums = sums_of(node);
+        const Sums sums = sums_of(node);
         unsigned rest = node.mask();
-        for (std::size_t i = sums.size(); i-- > 0;) {
+        for (std::size_t i = sums.octants; i-- > 0;) {
             const auto octant = static_cast<unsigned>(31 - std::countl_zero(rest));
             rest &= ~(1U << octant);
             const std::uint32_t child = node.child(octant);
-            std::size_t share = lanes;
-            if (i > 0) {
-                share = 1;
-                for (std::size_t k = 1; k + i <= lanes; ++k)
-                    if (sums[i - 1][lanes - k - 1] + voxels_[child].forest[k - 1] <
-                        sums[i - 1][lanes - share - 1] + voxels_[child].forest[share - 1])
-                        share = k;
-            }
+            const std::size_t share =
+                i == 0 ? lanes : share_of(sums.sum[i - 1], voxels_[child].forest, lanes, i);
             lanes -= share;
             const int shift = voxel.shift - 3;
             put({child, voxel.way | static_cast<std::uint64_t>(octant) << shift, shift}, share,
                 out);
         }
     }
+    // How many of the lanes the last octant gets where `others` octants come before it.
+    static std::size_t share_of(const Forest& before, const Forest& last, std::size_t lanes,
+                                std::size_t others) {
+        std::size_t share = 1;
+        for (std::size_t k = 2; k + others <= lanes; ++k)
+            if (before[lanes - k - 1] + last[k - 1] < before[lanes - share - 1] + last[share - 1])
+                share = k;
+        return share;
+    }
     void put(const Inner& voxel, std::size_t lanes, std::vector<Inner>& out) const {
         const Voxel& v = voxels_[voxel.place];
         if (v.box.empty()) return;
-        // As one wherever that costs no more.
-        const bool one = v.leaf ? v.forest[lanes - 1] >= v.forest[0]
-                                : v.forest[lanes - 1] >= v.forest[0] || voxel.shift < 3;
-        if (one || octree_.nodes[voxel.place].is_leaf())
+        // As one wherever that costs no more, or where there is no room for the way further down.
+        if (v.forest[lanes - 1] >= v.forest[0] || voxel.shift < 3)
             out.push_back(voxel);
         else
             distribute(voxel, lanes, out);
@@ -215,23 +235,29 @@ class WideBuilder {
         }
     }
 
-    void fill(std::size_t place, const std::vector<Inner>& voxels) {
+    void put_boxes(const std::vector<Inner>& voxels, WideNode& node) const {
         constexpr float kInfinity = std::numeric_limits<float>::infinity();
-        put_orders(voxels, out_.nodes[place]);
         for (std::size_t lane = 0; lane < kWideLanes; ++lane) {
             const Bounds3T<float> box =
                 lane < voxels.size() ? voxels_[voxels[lane].place].box : Bounds3T<float>{};
             for (int axis = 0; axis < 3; ++axis) {
-                out_.nodes[place].low[axis][lane] = box.empty() ? kInfinity : box.min[axis];
-                out_.nodes[place].high[axis][lane] = box.empty() ? -kInfinity : box.max[axis];
+                node.low[axis][lane] = box.empty() ? kInfinity : box.min[axis];
+                node.high[axis][lane] = box.empty() ? -kInfinity : box.max[axis];
             }
         }
+    }
+
+    // Node `place` with these voxels, and all below it. Leaves first, so that those of a node stand
+    // together.
+    void fill(std::size_t place, const std::vector<Inner>& voxels) {
+        put_boxes(voxels, out_.nodes[place]);
+        put_orders(voxels, out_.nodes[place]);
         for (std::size_t lane = 0; lane < voxels.size(); ++lane) {
             const Voxel& voxel = voxels_[voxels[lane].place];
             if (!voxel.leaf) continue;
             const std::span<const Slot> slots(items_.data() + voxel.first, voxel.count);
             out_.nodes[place].child[lane] =
-                append_leaf(scene_, slots, out_.leaves) | WideOctree::kLeaf;
+                append_leaf(scene_, slots, voxel.box, out_.leaves) | WideOctree::kLeaf;
         }
         for (std::size_t lane = 0; lane < voxels.size(); ++lane) {
             if (voxels_[voxels[lane].place].leaf) continue;
@@ -247,7 +273,7 @@ class WideBuilder {
     const FastScene& scene_;
     const CompactOctree& octree_;
     WideOctree& out_;
-    float byte_cost_ = 0;
+    float byte_cost_;            // of a byte, in half areas
     std::vector<Voxel> voxels_;  // by place in the octree
     std::vector<Slot> items_;
     std::vector<Slot> gathered_;
@@ -256,9 +282,7 @@ class WideBuilder {
 }  // namespace
 
 WideOctree::WideOctree(const FastScene& scene) {
-    CompactCosts costs;
-    costs.interior = E("CI",2); costs.leaf=E("CL",1); costs.beam=E("CB",0);
-    const CompactOctree octree = scene.octree(getenv("SP")?CutRule::kSpatial:CutRule::kSweep, costs, 1);
+    const CompactOctree octree = scene.octree(octree_options());
     const auto& [low, high] = octree.bounds;
     for (int axis = 0; axis < 3; ++axis)
         reach = std::max(reach, std::max(std::fabs(low[axis]), std::fabs(high[axis])));
