@@ -109,9 +109,8 @@ Tally run_batch(const HardClass& hard_class, const Batch& batch, const RunOption
     Aims aims(scene, octree, random);
     std::vector<Ray> rays;
     for (int i = 0; i < batch.rays; ++i) rays.push_back(hard_class.ray(scene, aims, random));
-    const auto answers = options.fast
-                             ? fast_answers(scene, rays, batch.number)
-                             : closest_hits(scene, primitives, &octree, profile, rays);
+    const auto answers = options.fast ? fast_answers(scene, rays, batch.number)
+                                      : closest_hits(scene, primitives, &octree, profile, rays);
     const std::string label = std::string(hard_class.name) + " batch " +
                               std::to_string(batch.number) + " seed " +
                               std::to_string(options.seed);

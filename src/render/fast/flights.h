@@ -6,6 +6,8 @@
 #define NUVO_RENDER_FAST_FLIGHTS_H_
 #endif
 
+#include <hwy/cache_control.h>
+
 #include <bit>
 #include <cmath>
 #include <cstring>

@@ -15,8 +15,8 @@
 #include "wide_octree.h"
 
 // Rays that have nothing in common, each on a way of its own: a step decides on 16 voxels or 16
-// primitives at once (flights.h), floats with proven bounds leave almost nothing open, and what they
-// do leave goes to the predicates of the serial tracer.
+// primitives at once (flights.h), floats with proven bounds leave almost nothing open, and what
+// they do leave goes to the predicates of the serial tracer.
 
 namespace nuvo {
 

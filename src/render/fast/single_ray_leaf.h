@@ -207,7 +207,7 @@ HWY_INLINE LeafHits test_spheres(const RayAtLeaf& ray, const float* values, std:
                          (abs(middle) + Floats(ray.entry) + half) * Floats(scale * 8 * kFloatUnit);
     const Floats near = Floats(ray.entry) + (middle - half);
     const Floats far = Floats(ray.entry) + (middle + half);
-    const Floats behind(block.behind[lane]);
+    const Floats behind(ray.behind);
     const RayMask near_ahead = near - slack > behind;
     const RayMask near_behind = near + slack < behind;
     const RayMask far_ahead = far - slack > behind;
