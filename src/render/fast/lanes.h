@@ -103,11 +103,12 @@ struct Lanes : LaneShape<T, N> {
             v.part[i] = hn::LoadU(Tag(), from + i * Shape::kPart);
         return v;
     }
-    /// 0 in the other lanes.
+    /// The lanes of `mask`, 0 in the others, which must be readable, too.
     static HWY_INLINE Lanes load(const T* from, const Mask& mask) {
         Lanes v;
         for (std::size_t i = 0; i < Shape::kParts; ++i)
-            v.part[i] = hn::MaskedLoad(mask.part[i], Tag(), from + i * Shape::kPart);
+            v.part[i] =
+                hn::IfThenElseZero(mask.part[i], hn::LoadU(Tag(), from + i * Shape::kPart));
         return v;
     }
     /// From 16-bit numbers.

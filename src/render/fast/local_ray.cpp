@@ -3,6 +3,8 @@
 #include <bit>
 #include <cmath>
 
+#include "nuvo/math/error_bounds.h"
+
 namespace nuvo {
 namespace {
 
@@ -30,6 +32,34 @@ double before_box(const Point3& o, const Vector3& d, double half) {
     return entry;
 }
 
+// A point in twice the precision of a double: high + low.
+struct DoublePoint {
+    Point3 high;
+    Vector3 low;
+
+    // this + d * way, off by less than 2^-98 (|this| + |d| way) on each axis, once. (Dekker 1971)
+    void move(const Vector3& d, double way) {
+        for (int axis = 0; axis < 3; ++axis) {
+            const double product = d[axis] * way;
+            const double rest = std::fma(d[axis], way, -product);
+            const TwoTerms sum = two_diff(high[axis], -product);
+            const double tail = sum.error + (low[axis] + rest);
+            high[axis] = sum.value + tail;
+            low[axis] = tail - (high[axis] - sum.value);
+        }
+    }
+};
+
+DoublePoint local_point(const LocalFrame& frame, const Point3& p) {
+    DoublePoint out;
+    for (int axis = 0; axis < 3; ++axis) {
+        const TwoTerms difference = two_diff(p[axis], frame.center[axis]);
+        out.high[axis] = difference.value * frame.scale;
+        out.low[axis] = difference.error * frame.scale;
+    }
+    return out;
+}
+
 }  // namespace
 
 LocalRay::LocalRay(const Ray& ray, const LocalFrame& frame, float reach) {
@@ -46,14 +76,20 @@ LocalRay::LocalRay(const Ray& ray, const LocalFrame& frame, float reach) {
     valid = true;
 
     constexpr double kNear = 4;  // origins within this are as good as in the box
-    error = 0x1p-50 * (far + 4);
+    error = 0x1p-50 * (far + kNear);
     if (far > kNear) {
-        // One more than the box's half width, and 4 roundings of the way.
-        const double way = before_box(o, d, reach + 1.0) * (1 - 0x1p-50);
-        if (way > 0) {
-            advance = way;
-            o = o + d * way;
+        DoublePoint point = local_point(frame, ray.origin);
+        // The way is rounded, so that the first one may end as far as 2^-50 of itself before the
+        // box, which is 1 away then.
+        constexpr int kTries = 3;
+        for (int i = 0; i < kTries && max_norm(point.high) > kNear; ++i) {
+            const double way = before_box(point.high, d, reach + 1.0) * (1 - 0x1p-50);
+            if (!(way > 0)) break;
+            point.move(d, way);
+            advance += way;
         }
+        o = point.high;
+        error = 0x1p-50 * (max_norm(o) + kNear) + kTries * 0x1p-96 * (far + advance);
     }
     // After an advance nothing is met before s = 1/2: the box is 1 away on an axis, and |d| < 2.
     behind = advance > 0 ? -0.25F : 0.0F;
