@@ -17,6 +17,16 @@ namespace {
 // they are tested exactly.
 constexpr double kLargestRatio = 16;
 
+// Half a float unit of 1 to nearest, the rest for doubles' roundings.
+Bounds3T<float> rounded_outwards(const Bounds3& box) {
+    Bounds3T<float> out;
+    for (int axis = 0; axis < 3; ++axis) {
+        out.min[axis] = static_cast<float>(box.min[axis] - 0x1p-23);
+        out.max[axis] = static_cast<float>(box.max[axis] + 0x1p-23);
+    }
+    return out;
+}
+
 Triangle local_triangle(const FastScene& scene, Slot slot) {
     const PrimitiveSource& source = scene.source(slot);
     const auto& mesh = std::get<TriangleMesh>(scene.scene().objects[source.object].shape);
@@ -170,6 +180,11 @@ std::uint32_t append_leaf(const FastScene& scene, std::span<const Slot> slots,
     return static_cast<std::uint32_t>(place);
 }
 
+Bounds3T<float> whole_box(const FastScene& scene, Slot slot) {
+    const Bounds3& world = scene.primitives().item_boxes[scene.id(slot)];
+    return rounded_outwards({scene.frame().local(world.min), scene.frame().local(world.max)});
+}
+
 Bounds3T<float> clipped_box(const FastScene& scene, Slot slot, const Bounds3T<float>& voxel) {
     Bounds3 box;
     if (slot < scene.triangle_end()) {
@@ -190,13 +205,8 @@ Bounds3T<float> clipped_box(const FastScene& scene, Slot slot, const Bounds3T<fl
         box = {scene.frame().local(world.min), scene.frame().local(world.max)};
     }
     if (box.empty()) return {};
-    Bounds3T<float> out;
-    for (int axis = 0; axis < 3; ++axis) {
-        // Rounded outwards: half a float unit of 1 to nearest, the rest for doubles' roundings.
-        out.min[axis] = std::max(static_cast<float>(box.min[axis] - 0x1p-23), voxel.min[axis]);
-        out.max[axis] = std::min(static_cast<float>(box.max[axis] + 0x1p-23), voxel.max[axis]);
-    }
-    return out;
+    const Bounds3T<float> out = rounded_outwards(box);
+    return {max(out.min, voxel.min), min(out.max, voxel.max)};
 }
 
 }  // namespace nuvo

@@ -13,6 +13,9 @@ namespace nuvo {
 std::uint32_t append_leaf(const FastScene& scene, std::span<const Slot> slots,
                           const Bounds3T<float>& box, std::vector<std::uint32_t>& words);
 
+/// The box of `slot`, from outside.
+Bounds3T<float> whole_box(const FastScene& scene, Slot slot);
+
 /// The box of what lies of `slot` in the voxel, from outside; may be empty.
 Bounds3T<float> clipped_box(const FastScene& scene, Slot slot, const Bounds3T<float>& voxel);
 

@@ -24,7 +24,8 @@ namespace {
 constexpr float kNodeCost = 1;
 constexpr float kLeafCost = 1;
 constexpr float kBlockCost = 1.5F;
-constexpr float kMemoryCost = 0.4F;
+constexpr float kMemoryCost = 0.1F;
+constexpr float kLoose = 2;
 // What a leaf takes for each item: nine corners' numbers of two bytes, and its slot.
 constexpr float kItemBytes = 9 * sizeof(std::uint16_t) + sizeof(Slot);
 
@@ -32,9 +33,7 @@ CompactBuildOptions octree_options() {
     CompactBuildOptions options;
     options.rule = CutRule::kSweep;
     // Cut finely: the passes below take back what is not worth it.
-    options.costs = {3, 1, 0};  // lines have no width
-    // Keeps the copies of a closed mesh within the size of its peers' structures.
-    options.max_references_per_item = 3.2;
+    options.costs = {2, 0.5, 0};  // lines have no width
     return options;
 }
 
@@ -64,6 +63,8 @@ class WideBuilder {
     }
 
     void build() {
+        homes_.resize(scene_.slot_end());
+        find_homes(0, octree_.bounds);
         measure(0, octree_.bounds);
         out_.nodes.emplace_back();
         std::vector<Inner> voxels;
@@ -96,11 +97,8 @@ class WideBuilder {
         }
         for (unsigned octant = 0; octant < 8; ++octant) {
             if ((node.mask() >> octant & 1) == 0) continue;
-            Bounds3T<float> inside = bounds;
-            for (int axis = 0; axis < 3; ++axis)
-                ((octant >> axis & 1U) != 0 ? inside.min : inside.max)[axis] = node.cut[axis];
             const std::uint32_t child = node.child(octant);
-            measure(child, inside);
+            measure(child, octant_of(bounds, node, octant));
             voxel.box = voxel.box.extended(voxels_[child].box);
         }
         gather_items(node, voxel);
@@ -119,7 +117,10 @@ class WideBuilder {
         voxel.first = static_cast<std::uint32_t>(items_.size());
         for (std::uint32_t i = 0; i < node.item_count(); ++i) {
             const Slot slot = octree_.items[node.first_item() + i];
-            const Bounds3T<float> box = clipped_box(scene_, slot, bounds);
+            const Home& home = homes_[slot];
+            if (home.only && home.leaf != node.first_item()) continue;
+            const Bounds3T<float> box = home.only ? whole_box(scene_, slot)
+                                                  : clipped_box(scene_, slot, bounds);
             if (box.empty()) continue;
             voxel.box = voxel.box.extended(box);
             items_.push_back(slot);
@@ -127,6 +128,41 @@ class WideBuilder {
         voxel.count = static_cast<std::uint32_t>(items_.size()) - voxel.first;
         voxel.small = voxel.leaf = true;
         voxel.forest.fill(leaf_cost(voxel));
+    }
+
+    // Which leaf, by its first item's place, is nearest to an item's middle; and whether it is small
+    // enough against it to be listed there only, as a whole.
+    struct Home {
+        std::uint32_t leaf = 0;
+        float distance = std::numeric_limits<float>::infinity();
+        bool only = false;
+    };
+    void find_homes(std::uint32_t place, const Bounds3T<float>& bounds) {
+        const CompactNode& node = octree_.nodes[place];
+        if (node.is_leaf()) {
+            const float width = max_norm(bounds.widths());
+            for (std::uint32_t i = 0; i < node.item_count(); ++i) {
+                const Slot slot = octree_.items[node.first_item() + i];
+                const Bounds3T<float> box = whole_box(scene_, slot);
+                const Vec3<float> middle = box.center();
+                const Vec3<float> nearest = nuvo::min(nuvo::max(middle, bounds.min), bounds.max);
+                const float distance = max_norm(middle - nearest);
+                Home& home = homes_[slot];
+                if (distance >= home.distance) continue;
+                home = {node.first_item(), distance, max_norm(box.widths()) <= kLoose * width};
+            }
+            return;
+        }
+        for (unsigned octant = 0; octant < 8; ++octant)
+            if ((node.mask() >> octant & 1) != 0)
+                find_homes(node.child(octant), octant_of(bounds, node, octant));
+    }
+    static Bounds3T<float> octant_of(const Bounds3T<float>& bounds, const CompactNode& node,
+                                     unsigned octant) {
+        Bounds3T<float> inside = bounds;
+        for (int axis = 0; axis < 3; ++axis)
+            ((octant >> axis & 1U) != 0 ? inside.min : inside.max)[axis] = node.cut[axis];
+        return inside;
     }
 
     // The items of all octants without repetition, if they are few.
@@ -275,6 +311,7 @@ class WideBuilder {
     WideOctree& out_;
     float byte_cost_;            // of a byte, in half areas
     std::vector<Voxel> voxels_;  // by place in the octree
+    std::vector<Home> homes_;    // by slot
     std::vector<Slot> items_;
     std::vector<Slot> gathered_;
 };
