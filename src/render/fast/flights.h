@@ -181,7 +181,8 @@ class Flights {
         const auto* const corners =
             reinterpret_cast<const std::uint16_t*>(centers + std::size_t{4} * spheres);
         for (std::uint32_t i = 0; i < triangles; i += kWideLanes)
-            take(flight, at, test_triangles(at, corners + i, triangles, rays_.bounds_scale()),
+            take(flight, at,
+                 test_triangles(at, corners + i, triangles, triangles - i, rays_.bounds_scale()),
                  slots + i, triangles - i);
         for (std::uint32_t i = 0; i < spheres; i += kWideLanes)
             take(flight, at,

@@ -34,6 +34,10 @@ struct LeafHits {
     RayMask open;  ///< neither surely met nor surely missed
     Floats low;
     Floats high;
+
+    static HWY_INLINE LeafHits none() {
+        return {RayMask::from_bits(0), RayMask::from_bits(0), Floats(0.0F), Floats(0.0F)};
+    }
 };
 
 struct Vector16 {
@@ -127,7 +131,7 @@ HWY_INLINE Vector16 load_corner(const std::uint16_t* corners, std::size_t stride
 /// max(|e1|, |e2|), L <= M; d . n by k |d|_1 and n . a by k |a|_1 + e |n|_1, with three roundings
 /// more of the terms, which the ninth e covers (9 instead of 8.5; 4 u M^2 < 0.02 e M).
 HWY_INLINE LeafHits test_triangles(const RayAtLeaf& ray, const std::uint16_t* corners,
-                                   std::size_t stride, float scale) {
+                                   std::size_t stride, std::uint32_t count, float scale) {
     const Vector16 a = load_corner(corners, stride, 0, ray);
     const Vector16 b = load_corner(corners, stride, 1, ray);
     const Vector16 c = load_corner(corners, stride, 2, ray);
@@ -143,6 +147,8 @@ HWY_INLINE LeafHits test_triangles(const RayAtLeaf& ray, const std::uint16_t* co
     const Floats most = max(u, max(v, w));
     const RayMask inside = (least > edge_error) | (most < -edge_error);
     const RayMask outside = (least < -edge_error) & (most > edge_error);
+    LeafHits hits = LeafHits::none();
+    if (((~outside).bits() & first_lanes(count)) == 0) return hits;
 
     const Vector16 e1 = b - a;
     const Vector16 e2 = c - a;
@@ -157,7 +163,6 @@ HWY_INLINE LeafHits test_triangles(const RayAtLeaf& ray, const std::uint16_t* co
     // 1 / (1 - share) <= 1 + 2 share for a share of at most 1/2.
     const Floats share = slope_error * abs(inverse);
     const RayMask crossing = share < Floats(0.5F);
-    LeafHits hits;
     // Room for the roundings of the bound itself, and of the product above.
     const Floats error = mul_add(abs(along), slope_error, height_error) * abs(inverse) *
                              mul_add(share, Floats(2.0F), Floats(1 + 16 * kFloatUnit)) +
@@ -198,6 +203,8 @@ HWY_INLINE LeafHits test_spheres(const RayAtLeaf& ray, const float* values, std:
                                        mul_add(r, r, across) * Floats(scale * 16 * kFloatUnit));
     const RayMask meets = depth > depth_error;
     const RayMask misses = depth < -depth_error;
+    LeafHits hits = LeafHits::none();
+    if (!without(present, misses).any()) return hits;
     const Floats half = sqrt(max(depth, Floats(0.0F)) * inverse);
     // sqrt(depth +- error) differs by less than error / sqrt(depth); |d| >= 1.
     const Floats half_error =
@@ -211,7 +218,6 @@ HWY_INLINE LeafHits test_spheres(const RayAtLeaf& ray, const float* values, std:
     const RayMask near_ahead = near - slack > behind;
     const RayMask near_behind = near + slack < behind;
     const RayMask far_ahead = far - slack > behind;
-    LeafHits hits;
     hits.low = select(near_behind, far - slack, near - slack);
     hits.high = select(near_ahead, near + slack, far + slack);
     hits.sure = meets & (near_ahead | (near_behind & far_ahead));

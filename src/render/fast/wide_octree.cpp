@@ -14,6 +14,11 @@
 // as part of a node above it that has so many lanes left (Ylitie, Karras and Laine 2017, "Efficient
 // incoherent ray traversal on GPUs through compressed wide BVHs", section 3.1). The second goes
 // down and takes the cheapest.
+//
+// What counts are the boxes, not the voxels: a ray that meets a primitive meets the box of a leaf
+// that lists it, and all boxes around that, no later. So a primitive that is small against its
+// leaves need stand in one of them only, whose box then holds all of it; of a large one each leaf
+// lists the part in its voxel.
 
 namespace nuvo {
 namespace {
@@ -22,9 +27,10 @@ namespace {
 // measured on random rays. What all of the structure weighs when it has as many bytes as the
 // primitives would have, each listed once, is the price of memory.
 constexpr float kNodeCost = 1;
-constexpr float kLeafCost = 1;
+constexpr float kLeafCost = 1.5F;
 constexpr float kBlockCost = 1.5F;
 constexpr float kMemoryCost = 0.1F;
+// A primitive at most so many times as wide as a leaf's voxel is listed in one leaf only.
 constexpr float kLoose = 2;
 // What a leaf takes for each item: nine corners' numbers of two bytes, and its slot.
 constexpr float kItemBytes = 9 * sizeof(std::uint16_t) + sizeof(Slot);
@@ -119,8 +125,8 @@ class WideBuilder {
             const Slot slot = octree_.items[node.first_item() + i];
             const Home& home = homes_[slot];
             if (home.only && home.leaf != node.first_item()) continue;
-            const Bounds3T<float> box = home.only ? whole_box(scene_, slot)
-                                                  : clipped_box(scene_, slot, bounds);
+            const Bounds3T<float> box =
+                home.only ? whole_box(scene_, slot) : clipped_box(scene_, slot, bounds);
             if (box.empty()) continue;
             voxel.box = voxel.box.extended(box);
             items_.push_back(slot);
@@ -130,8 +136,8 @@ class WideBuilder {
         voxel.forest.fill(leaf_cost(voxel));
     }
 
-    // Which leaf, by its first item's place, is nearest to an item's middle; and whether it is small
-    // enough against it to be listed there only, as a whole.
+    // Which leaf, by its first item's place, is nearest to an item's middle; and whether it is
+    // small enough against it to be listed there only, as a whole.
     struct Home {
         std::uint32_t leaf = 0;
         float distance = std::numeric_limits<float>::infinity();

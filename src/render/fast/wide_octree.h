@@ -23,7 +23,8 @@ struct alignas(64) WideNode {
     std::uint32_t child[kWideLanes];  ///< index of a node; with WideOctree::kLeaf: place of a leaf
     /// The lanes from near to far for rays whose direction's sign bits are 1 x + 2 y + 4 z: number
     /// i stands in bits 4 (i / 2) to 4 (i / 2) + 3 of word i % 2. What separates two voxels is a
-    /// plane of the octree, so that one order holds for all rays of the same signs.
+    /// plane of the octree, so that one order serves all rays of the same signs. (A box may reach
+    /// out of its voxel: the order is for speed.)
     std::uint32_t order[8][2];
 };
 
