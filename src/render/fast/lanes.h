@@ -118,8 +118,8 @@ struct Lanes : LaneShape<T, N> {
         return v;
     }
     /// From 16-bit numbers.
-    static HWY_INLINE Lanes from_shorts(const std::uint16_t* from) requires(
-        std::is_same_v<T, float>) {
+    static HWY_INLINE Lanes
+    from_shorts(const std::uint16_t* from) requires(std::is_same_v<T, float>) {
         using Narrow = hn::FixedTag<std::uint16_t, Shape::kPart>;
         using Wide = hn::FixedTag<std::int32_t, Shape::kPart>;
         Lanes v;
@@ -161,8 +161,8 @@ struct Lanes : LaneShape<T, N> {
             hn::BlendedStore(part[i], mask.part[i], Tag(), to + i * Shape::kPart);
     }
     /// from[0] in even lanes, from[1] in odd ones.
-    static HWY_INLINE Lanes pairs(const std::uint32_t* from) requires(
-        std::is_same_v<T, std::int32_t>) {
+    static HWY_INLINE Lanes
+    pairs(const std::uint32_t* from) requires(std::is_same_v<T, std::int32_t>) {
         Lanes v;
         if constexpr (Shape::kPart == 1) {
             for (std::size_t i = 0; i < Shape::kParts; ++i)
@@ -257,7 +257,8 @@ struct Lanes : LaneShape<T, N> {
         return a;
     }
     friend HWY_INLINE Lanes operator>>(Lanes a, const Lanes& bits) {
-        for (std::size_t i = 0; i < Shape::kParts; ++i) a.part[i] = hn::Shr(a.part[i], bits.part[i]);
+        for (std::size_t i = 0; i < Shape::kParts; ++i)
+            a.part[i] = hn::Shr(a.part[i], bits.part[i]);
         return a;
     }
     friend HWY_INLINE Lanes floor(Lanes a) {

@@ -40,10 +40,10 @@ struct alignas(64) LocalRay {
     float behind;         ///< s at or below the true origin; hits at larger s are in front of it
     float least_unit;     ///< leaves with a finer grid are not tested in float
     double origin[3];
-    double step[3];       ///< d
-    double error = 0;     ///< see above
-    double advance = 0;   ///< in units of d
-    double scale = 1;     ///< s + advance = t * scale, a power of two
+    double step[3];      ///< d
+    double error = 0;    ///< see above
+    double advance = 0;  ///< in units of d
+    double scale = 1;    ///< s + advance = t * scale, a power of two
 
     LocalRay() = default;
     LocalRay(const Ray& ray, const LocalFrame& frame, float reach);

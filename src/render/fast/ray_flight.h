@@ -34,7 +34,8 @@ constexpr std::array<FacesOnWay, 8> faces_by_signs() {
     for (std::uint32_t signs = 0; signs < 8; ++signs)
         for (std::uint32_t axis = 0; axis < 3; ++axis) {
             const std::uint32_t negative = signs >> axis & 1;
-            faces[signs].near[axis] = static_cast<std::uint32_t>((axis + 3 * negative) * kWideLanes);
+            faces[signs].near[axis] =
+                static_cast<std::uint32_t>((axis + 3 * negative) * kWideLanes);
             faces[signs].far[axis] =
                 static_cast<std::uint32_t>((axis + 3 * (1 - negative)) * kWideLanes);
         }
@@ -54,12 +55,12 @@ struct RayFlight {
         std::uint32_t unused[15];
     };
 
-    std::uint32_t next = 0;   ///< what comes next (WideNode::child), or kLanded
-    float next_entry = 0;     ///< where the ray enters it
-    float best = 0;           ///< the nearest sure hit's upper bound
+    std::uint32_t next = 0;  ///< what comes next (WideNode::child), or kLanded
+    float next_entry = 0;    ///< where the ray enters it
+    float best = 0;          ///< the nearest sure hit's upper bound
     std::uint32_t candidate_count = 0;
-    Level* top = nullptr;     ///< the first free level; something waits in each below it
-    std::size_t index = 0;    ///< among the batch's rays
+    Level* top = nullptr;   ///< the first free level; something waits in each below it
+    std::size_t index = 0;  ///< among the batch's rays
     /// The first one holds only kLanded.
     Level levels[CompactOctree::kMaxDepth + 2];
     RayCandidate candidates[kMaxCandidates];

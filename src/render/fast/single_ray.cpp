@@ -100,8 +100,7 @@ class Flights {
             const std::size_t index = next_++;
             RayBlock& block = blocks_[index / RayBlock::kRays];
             const std::size_t lane = index % RayBlock::kRays;
-            if (lane == 0)
-                block.prepare(batch_.subspan(index), rays_.scene().frame(), tree_.reach);
+            if (lane == 0) block.prepare(batch_.subspan(index), rays_.scene().frame(), tree_.reach);
             if ((block.valid >> lane & 1) != 0) {
                 flight.start(index);
                 at_nodes_.add(flight, 1);
@@ -148,8 +147,7 @@ class Flights {
     }
 
     HWY_INLINE void test_leaf(RayFlight& flight) const {
-        const std::uint32_t* const words =
-            tree_.leaves.data() + (flight.next & ~WideOctree::kLeaf);
+        const std::uint32_t* const words = tree_.leaves.data() + (flight.next & ~WideOctree::kLeaf);
         WideLeafHead head;
         std::memcpy(&head, words, sizeof head);
         const Slot* const slots = words + kLeafHeadWords;
@@ -228,8 +226,7 @@ class Flights {
     HWY_NOINLINE void decide(RayFlight& flight) const {
         const Ray& ray = batch_[flight.index];
         const LocalRay local(ray, rays_.scene().frame(), tree_.reach);
-        const auto exact =
-            rays_.decide(ray, local, {flight.candidates, flight.candidate_count});
+        const auto exact = rays_.decide(ray, local, {flight.candidates, flight.candidate_count});
         flight.candidate_count = 0;
         if (!exact) return;
         flight.candidates[flight.candidate_count++] = *exact;
@@ -253,7 +250,8 @@ class Flights {
     const WideOctree& tree_;
     std::span<const Ray> batch_;
     Slot* found_;
-    // Asking for a voxel's memory when it is chosen pays only where the caches cannot hold them all.
+    // Asking for a voxel's memory when it is chosen pays only where the caches cannot hold them
+    // all.
     static constexpr std::size_t kCached = 1 << 20;
     const bool prefetches_ = tree_.memory_bytes() > kCached;
     std::size_t next_ = 0;

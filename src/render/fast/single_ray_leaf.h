@@ -47,7 +47,9 @@ struct Vector16 {
     friend HWY_INLINE Floats dot(const Vector16& a, const Vector16& b) {
         return mul_add(a.z, b.z, mul_add(a.y, b.y, a.x * b.x));
     }
-    friend HWY_INLINE Floats norm(const Vector16& a) { return max(abs(a.x), max(abs(a.y), abs(a.z))); }
+    friend HWY_INLINE Floats norm(const Vector16& a) {
+        return max(abs(a.x), max(abs(a.y), abs(a.z)));
+    }
     friend HWY_INLINE Floats sum(const Vector16& a) { return abs(a.x) + abs(a.y) + abs(a.z); }
 };
 
@@ -58,8 +60,8 @@ struct RayAtLeaf {
         : direction_sum(block.direction_sum[lane]), entry(entry_at), unit(head.unit) {
         const double inverse = 1 / static_cast<double>(head.unit);
         for (int axis = 0; axis < 3; ++axis) {
-            const double p = block.origin[axis][lane] +
-                             static_cast<double>(entry) * block.step[axis][lane];
+            const double p =
+                block.origin[axis][lane] + static_cast<double>(entry) * block.step[axis][lane];
             from[axis] = static_cast<float>(p);
             at[axis] = static_cast<float>((p - static_cast<double>(head.base[axis])) * inverse);
         }
@@ -98,9 +100,9 @@ HWY_INLINE Vector16 load_corner(const std::uint16_t* corners, std::size_t stride
 /// Edge functions d . (q x p) of two corners: p and q off by e move it by |d|_1 (2 e (|p| + |q|) +
 /// 2 e^2), and 8 roundings of six terms |d|_1 M^2 / 3 and one of d add less than 18 u |d|_1 M^2.
 /// The plane: an edge vector is off by 2 e + 2 u M < 2.125 e, a component of the normal n by less
-/// than k = 2 * 2.125 e (|e1| + |e2|) + 2 (2.125 e)^2 + 4 u |e1| |e2| < 9 e (L + e) for L = max(|e1|,
-/// |e2|), L <= M; d . n by k |d|_1 and n . a by k |a|_1 + e |n|_1, with three roundings more of the
-/// terms, which the ninth e covers (9 instead of 8.5; 4 u M^2 < 0.02 e M).
+/// than k = 2 * 2.125 e (|e1| + |e2|) + 2 (2.125 e)^2 + 4 u |e1| |e2| < 9 e (L + e) for L =
+/// max(|e1|, |e2|), L <= M; d . n by k |d|_1 and n . a by k |a|_1 + e |n|_1, with three roundings
+/// more of the terms, which the ninth e covers (9 instead of 8.5; 4 u M^2 < 0.02 e M).
 HWY_INLINE LeafHits test_triangles(const RayAtLeaf& ray, const std::uint16_t* corners,
                                    std::size_t stride, float scale) {
     const Vector16 a = load_corner(corners, stride, 0, ray);
@@ -176,8 +178,11 @@ HWY_INLINE LeafHits test_spheres(const RayAtLeaf& ray, const RayBlock& block, st
     const RayMask misses = depth < -depth_error;
     const Floats half = sqrt(max(depth, Floats(0.0F)) * inverse);
     // sqrt(depth +- error) differs by less than error / sqrt(depth); |d| >= 1.
-    const Floats half_error = select(meets, depth_error / (half * Floats(block.square[lane])) + half * Floats(8 * kFloatUnit), sqrt(depth_error + depth_error)) ;
-    const Floats slack = half_error + error + (abs(middle) + Floats(ray.entry) + half) * Floats(scale * 8 * kFloatUnit);
+    const Floats half_error = select(
+        meets, depth_error / (half * Floats(block.square[lane])) + half * Floats(8 * kFloatUnit),
+        sqrt(depth_error + depth_error));
+    const Floats slack = half_error + error +
+                         (abs(middle) + Floats(ray.entry) + half) * Floats(scale * 8 * kFloatUnit);
     const Floats near = Floats(ray.entry) + (middle - half);
     const Floats far = Floats(ray.entry) + (middle + half);
     const Floats behind(block.behind[lane]);

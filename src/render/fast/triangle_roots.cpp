@@ -21,7 +21,8 @@ struct Vectors8 {
     Doubles8 x, y, z;
 
     static HWY_INLINE Vectors8 load(const double (*from)[TriangleRoots::kCount], std::size_t i) {
-        return {Doubles8::load(from[0] + i), Doubles8::load(from[1] + i), Doubles8::load(from[2] + i)};
+        return {Doubles8::load(from[0] + i), Doubles8::load(from[1] + i),
+                Doubles8::load(from[2] + i)};
     }
     friend HWY_INLINE Vectors8 operator-(const Vectors8& p, const Vectors8& q) {
         return {p.x - q.x, p.y - q.y, p.z - q.z};
@@ -35,7 +36,8 @@ struct Vectors8 {
 struct CrossTerm {
     Doubles8 value;
     Doubles8 size;
-    HWY_INLINE CrossTerm(const Doubles8& p, const Doubles8& q, const Doubles8& r, const Doubles8& s) {
+    HWY_INLINE CrossTerm(const Doubles8& p, const Doubles8& q, const Doubles8& r,
+                         const Doubles8& s) {
         const Doubles8 first = p * q;
         const Doubles8 second = r * s;
         value = first - second;

@@ -8,8 +8,8 @@
 #include "nuvo/render/fast.h"
 
 // Where rays meet triangles that they are known to meet: Root::t of the exact predicates, many at a
-// time. It is the first stage of hit() (predicates_triangle.cpp) in vectors of doubles, operation by
-// operation, and leaves open what that stage leaves to the wider ones.
+// time. It is the first stage of hit() (predicates_triangle.cpp) in vectors of doubles, operation
+// by operation, and leaves open what that stage leaves to the wider ones.
 
 namespace nuvo {
 

@@ -18,10 +18,13 @@ namespace {
 
 // Prices of a step through a node, of reaching a leaf and of a register of primitives there,
 // measured on random rays.
-float E(const char*n,float d){const char*e=getenv(n);return e?atof(e):d;}
-float kNodeCost = E("KN",1);
-float kLeafCost = E("KL",0.75F);
-float kBlockCost = E("KB",0.75F);
+float E(const char* n, float d) {
+    const char* e = getenv(n);
+    return e ? atof(e) : d;
+}
+float kNodeCost = E("KN", 1);
+float kLeafCost = E("KL", 0.75F);
+float kBlockCost = E("KB", 0.75F);
 
 float half_area(const Bounds3T<float>& box) {
     if (box.empty()) return 0;
@@ -98,8 +101,7 @@ class WideBuilder {
         gather_items(node, voxel);
         const std::vector<Forest> sums = sums_of(node);
         voxel.forest = sums.back();
-        const float as_node =
-            half_area(voxel.box) * kNodeCost + voxel.forest[kWideLanes - 1];
+        const float as_node = half_area(voxel.box) * kNodeCost + voxel.forest[kWideLanes - 1];
         const float as_leaf =
             voxel.small ? leaf_cost(voxel) : std::numeric_limits<float>::infinity();
         voxel.leaf = as_leaf <= as_node;
