@@ -119,7 +119,10 @@ class Report:
                                      for key in ("primary", "trace", "frame"))
             row = [TITLES[scene], camera, f"{primary:.1f}", f"{trace - primary:.1f}",
                    f"{frame - trace:.1f}"]
-            row += [milliseconds(mine[key]) for key in ("tables", "primary", "shadow", "shading")]
+            # nuvo's clocks of stages run on while another program has the processor: shares only.
+            stages = [mine[key]["median"] for key in ("tables", "primary", "shadow", "shading")]
+            scale = 1000 * mine["frame"]["median"] / (sum(stages) or 1)
+            row += [f"{scale * stage:.1f}" for stage in stages]
             rows.append(row)
         return table(["scene", "camera", "Embree: primary", "shadow", "shading",
                       "nuvo: tables", "primary", "shadow", "shading"], rows)

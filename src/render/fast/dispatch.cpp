@@ -1,7 +1,7 @@
 #include "dispatch.h"
 
-#include <algorithm>
 #include <hwy/targets.h>
+#include <algorithm>
 #include <stdexcept>
 
 namespace nuvo {
@@ -9,7 +9,9 @@ namespace nuvo {
 std::vector<InstructionSet> supported_instruction_sets() {
     std::vector<InstructionSet> sets;
 #if HWY_ARCH_X86
-    const auto has = [](auto target) { return (hwy::SupportedTargets() & target) != 0; };
+    // Asked once: the processor's answer is slow, above all on virtual machines.
+    static const auto supported = hwy::SupportedTargets();
+    const auto has = [](auto target) { return (supported & target) != 0; };
     if (has(HWY_AVX3)) sets.push_back(InstructionSet::kAvx512);
     if (has(HWY_AVX2)) sets.push_back(InstructionSet::kAvx2);
     if (has(HWY_SSE4)) sets.push_back(InstructionSet::kSse4);

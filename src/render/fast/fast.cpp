@@ -6,6 +6,7 @@
 #include "dispatch.h"
 #include "exact_kernel.h"
 #include "frame.h"
+#include "single_ray.h"
 
 namespace nuvo {
 namespace {
@@ -35,6 +36,7 @@ struct FastTracer::State {
     FastScene fast;
     Bounds3 triangles;
     std::size_t table_bytes = 0;
+    std::unique_ptr<SingleRays> single;  // made when rays are first asked for
 };
 
 FastTracer::FastTracer(const Scene& scene, const Primitives& primitives, const FastOptions& options)
@@ -56,10 +58,11 @@ Image FastTracer::render(Resolution resolution, FastTimes* times) {
 }
 
 std::vector<RayAnswer> FastTracer::closest_hits(std::span<const Ray> rays) const {
-    const FastScene& fast = state_->fast;
-    const Profile profile = exact_profile();
-    const Octree octree = build_tree(fast.scene(), fast.primitives(), profile);
-    return nuvo::closest_hits(fast.scene(), fast.primitives(), &octree, profile, rays);
+    std::unique_ptr<SingleRays>& single = state_->single;
+    if (!single)
+        single = std::make_unique<SingleRays>(state_->fast, state_->options.isa,
+                                              state_->options.redo_exactly);
+    return single->closest_hits(rays);
 }
 
 RayCounts FastTracer::count_rays(Resolution resolution) const {
@@ -76,7 +79,8 @@ RayCounts FastTracer::count_rays(Resolution resolution) const {
 const CompactOctree& FastTracer::octree() const { return state_->fast.octree(); }
 
 FastMemory FastTracer::memory() const {
-    return {state_->fast.octree().memory_bytes(), state_->table_bytes};
+    const std::size_t rays = state_->single ? state_->single->memory_bytes() : 0;
+    return {state_->fast.octree().memory_bytes() + rays, state_->table_bytes};
 }
 
 }  // namespace nuvo

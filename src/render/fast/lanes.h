@@ -103,11 +103,18 @@ struct Lanes : LaneShape<T, N> {
             v.part[i] = hn::LoadU(Tag(), from + i * Shape::kPart);
         return v;
     }
-    /// 0 in the other lanes.
+    /// 0 in the other lanes. All N numbers must be readable: SSE4 reads them, and its MaskedLoad
+    /// would ask for an aligned address.
     static HWY_INLINE Lanes load(const T* from, const Mask& mask) {
         Lanes v;
-        for (std::size_t i = 0; i < Shape::kParts; ++i)
+        for (std::size_t i = 0; i < Shape::kParts; ++i) {
+#if HWY_TARGET == HWY_SSE4
+            const auto all = hn::LoadU(Tag(), from + i * Shape::kPart);
+            v.part[i] = hn::IfThenElseZero(mask.part[i], all);
+#else
             v.part[i] = hn::MaskedLoad(mask.part[i], Tag(), from + i * Shape::kPart);
+#endif
+        }
         return v;
     }
     /// From 16-bit numbers.
@@ -320,6 +327,14 @@ HWY_INLINE Doubles doubles_from(const Floats& v) {
         out.part[2 * i + 1] = hn::PromoteTo(Doubles::Tag(), hn::UpperHalf(half, v.part[i]));
     }
 #endif
+    return out;
+}
+
+/// Without their fractions.
+HWY_INLINE Ints integers_from(const Floats& v) {
+    Ints out;
+    for (std::size_t i = 0; i < Floats::Shape::kParts; ++i)
+        out.part[i] = hn::ConvertTo(Ints::Tag(), v.part[i]);
     return out;
 }
 

@@ -139,14 +139,19 @@ class TriangleFiller {
         spread(n.z, normals + 2, 4, count);
     }
     static HWY_INLINE void spread(const Wide& v, float* to, std::size_t stride, std::size_t count) {
-        double values[kBatch];
-        v.store(values);
-        for (std::size_t i = 0; i < count; ++i) to[i * stride] = static_cast<float>(values[i]);
+        if (stride == 1 && count == kBatch) {
+            store_rounded(v, to);
+            return;
+        }
+        float values[kBatch];
+        store_rounded(v, values);
+        for (std::size_t i = 0; i < count; ++i) to[i * stride] = values[i];
     }
 
     HWY_INLINE void store_smooth(const WideTriangles& t, const Wide& sign, std::size_t count) {
-        const SmoothFunctions functions(tables_.camera, t, corner(batch_.normal, 0),
-                                        corner(batch_.normal, 1), corner(batch_.normal, 2), sign);
+        const SmoothFunctions functions(tables_.camera, static_cast<double>(tables_.rays.longest),
+                                        t, corner(batch_.normal, 0), corner(batch_.normal, 1),
+                                        corner(batch_.normal, 2), sign);
         for (std::size_t i = 0; i < count; ++i)
             if (batch_.smooth[i] != nullptr) functions.store(i, *batch_.smooth[i]);
     }

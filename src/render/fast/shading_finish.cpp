@@ -25,11 +25,18 @@ class TileFinisher {
         : tables_(tables), tile_(tile), scratch_(scratch) {}
 
     void run(Image& image, TileMask& uncertain) {
+        const bool in_range = tables_.background.in_range && tables_.sound;
         for (int b = 0; b < kTileBlocks; ++b) {
             const std::uint32_t inside = tile_.inside[b];
             const std::uint32_t hit = tile_.hit[b] & inside;
             uncertain[b] = 0;
             if (inside == 0) continue;
+            if (hit == 0 && in_range) {
+                const PixelColors pixels =
+                    background_colors(tables_, BlockDirections(tables_, tile_, b));
+                uncertain[b] = static_cast<std::uint16_t>(quantize<false>(b, pixels) & inside);
+                continue;
+            }
             PixelColors pixels;
             if (hit != 0) pixels = surface_colors(b, hit);
             if (hit != inside) {
@@ -37,7 +44,7 @@ class TileFinisher {
                     background_colors(tables_, BlockDirections(tables_, tile_, b));
                 pixels = hit == 0 ? behind : merged(RayMask::from_bits(hit), pixels, behind);
             }
-            uncertain[b] = static_cast<std::uint16_t>(quantize(b, pixels) & inside);
+            uncertain[b] = static_cast<std::uint16_t>(quantize<true>(b, pixels) & inside);
             if (!tables_.sound) uncertain[b] = static_cast<std::uint16_t>(inside);
         }
         write(image);
@@ -171,22 +178,24 @@ class TileFinisher {
         }
     }
 
-    // Fills the block's bytes; returns the lanes that are not certain.
+    // Fills the block's bytes; returns the lanes that are not certain. Colors that may leave 0..255
+    // have to be clamped. A pixel's three bytes are one integer below 2^24, exact in float.
+    template <bool kClamped>
     HWY_INLINE std::uint32_t quantize(int b, const PixelColors& pixels) {
         constexpr float kToInteger = 0x1.8p23F;
         const Floats to_integer(kToInteger);
-        Ints byte[3];
-        Floats farthest(0.0F);
+        Floats byte[3];
+        Floats off[3];
         for (int c = 0; c < 3; ++c) {
-            const Floats v = min(max(pixels.channel[c], Floats(0.0F)), Floats(255.0F));
-            const Floats shifted = v + to_integer;
-            byte[c] = bits_of(shifted);
-            farthest = max(farthest, abs(v - (shifted - to_integer)));
+            Floats v = pixels.channel[c];
+            if constexpr (kClamped) v = min(max(v, Floats(0.0F)), Floats(255.0F));
+            byte[c] = (v + to_integer) - to_integer;
+            off[c] = abs(v - byte[c]);
         }
-        const Ints low(0xff);
-        const Ints packed =
-            (byte[0] & low) | shift_left<8>(byte[1] & low) | shift_left<16>(byte[2]);
-        store_packed(packed, bytes_ + b * kBlockBytes);
+        const Floats packed =
+            mul_add(mul_add(byte[2], Floats(256.0F), byte[1]), Floats(256.0F), byte[0]);
+        store_packed(integers_from(packed), bytes_ + b * kBlockBytes);
+        const Floats farthest = max(max(off[0], off[1]), off[2]);
         return (~(farthest < Floats(0.5F - kUnit) - pixels.error)).bits();
     }
 

@@ -284,8 +284,12 @@ std::vector<BackgroundBand> bands(const std::vector<Color>& colors,
 void add_background(ShadingTables& tables) {
     const Background& exact = tables.scene.scene().background;
     ShadingBackground& out = tables.background;
+    out.in_range = true;
     for (const std::vector<Color>* colors : {&exact.sky_color, &exact.ground_color})
-        for (const Color& c : *colors) tables.sound = tables.sound && is_sound(c);
+        for (const Color& c : *colors) {
+            tables.sound = tables.sound && is_sound(c);
+            out.in_range = out.in_range && is_sound(c) && largest(c) <= 1;
+        }
     if (exact.ground_color.empty() && exact.sky_color.size() <= 1) {
         const Color color = exact.sky_color.empty() ? Color{} : exact.sky_color[0];
         put_surely(color, out.middle.data());
@@ -305,6 +309,7 @@ void add_background(ShadingTables& tables) {
                                (most * y + kFloatUnit * (2 * max_norm(middle) + 3 * most)));
     } else {
         out.kind = ShadingBackground::Kind::kGradient;
+        out.in_range = false;  // where bounds lie in two bands
         out.has_ground = !exact.ground_color.empty();
         out.sky = bands(exact.sky_color, exact.sky_angle);
         if (out.sky.empty()) out.sky = bands({Color{}}, {});

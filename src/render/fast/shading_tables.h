@@ -110,6 +110,7 @@ struct ShadingBackground {
     std::array<float, 3> middle{};  ///< kConstant; kBlend: at the horizon
     std::array<float, 3> slope{};   ///< kBlend: by the sine of the height
     float error = 0;                ///< bounds the errors in units of a byte
+    bool in_range = false;          ///< colors surely stay below 255 and a half, and above -1 / 2
     bool has_ground = false;
     std::vector<BackgroundBand> sky;  ///< never empty for a gradient; the last has no end
     std::vector<BackgroundBand> ground;

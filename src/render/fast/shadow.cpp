@@ -210,9 +210,9 @@ class ShadowTracer {
             std::uint32_t whole = 0;
             for (std::uint32_t i = 0; i < rounds_.count; ++i) {
                 const RoundItem item(job_.tables, table_, rounds_.slot[i]);
-                const RoundTest test(item.shape, centers_, center_ways_, round_box_error_);
-                near.add(rounds_.slot[i], groups_ & ~test.free(item));
-                whole |= test.blocked(item);
+                const RoundTest test(item, centers_, center_ways_, round_box_error_);
+                near.add(rounds_.slot[i], groups_ & ~test.free());
+                whole |= test.blocked();
             }
             block_groups(whole & groups_);
         } else {
@@ -222,9 +222,9 @@ class ShadowTracer {
             const RoundItem item(job_.tables, table_, near.slot[i]);
             for (std::uint32_t at = near.groups[i]; at != 0;) {
                 const int p = next_packet(at);
-                const RoundTest test(item.shape, points_[p], ways_[p], Floats(round_error_));
-                const std::uint32_t perhaps = waiting_[p] & ~test.free(item);
-                const std::uint32_t sure = perhaps & test.blocked(item);
+                const RoundTest test(item, points_[p], ways_[p], Floats(round_error_));
+                const std::uint32_t perhaps = waiting_[p] & ~test.free();
+                const std::uint32_t sure = perhaps & test.blocked();
                 waiting_[p] &= ~sure;
                 blocker = sure != 0 ? near.slot[i] : blocker;
                 if (perhaps != sure) leave_round(near.slot[i], p, perhaps ^ sure, item, test);
@@ -257,20 +257,33 @@ class ShadowTracer {
         put_aside(slot, p, lanes, rounded.bits());
     }
     // Nor does a sphere where the way to the light leads outwards. Its own points touch it, so they
-    // are among those that no test of the foot decides.
+    // come here unless their ways lead deep into it.
     HWY_NOINLINE void leave_round(Slot slot, int p, std::uint32_t lanes, const RoundItem& item,
                                   const RoundTest& test) {
         const std::uint32_t own = lanes & clusters_.of_slot(first_ + 16 * p, slot);
-        std::uint32_t rounded = without(test.crosses, test.behind | test.beyond).bits() & ~own;
-        if (own != 0 && item.sphere) {
+        std::uint32_t rounded =
+            (test.square < Floats(item.shape.radius * item.shape.radius)).bits() & ~own;
+        if (item.sphere) {
+            const Points& at = points_[p];
+            const Ways& way = ways_[p];
+            const Floats fx = Floats(item.shape.center[0]) - at.x;
+            const Floats fy = Floats(item.shape.center[1]) - at.y;
+            const Floats fz = Floats(item.shape.center[2]) - at.z;
+            const Floats along = mul_add(fx, way.x, mul_add(fy, way.y, fz * way.z));
             // Off by the way's own error at one end, at most 1 away, and by the point's.
-            const Floats margin =
-                mul_add(ways_[p].inverse, Floats(round_error_), Floats(round_error_));
-            const std::uint32_t outwards = (test.along < -margin).bits();
-            const std::uint32_t inwards = (test.along > margin).bits();
+            const Floats margin = mul_add(way.inverse, Floats(round_error_), Floats(round_error_));
+            const std::uint32_t outwards = (along < -margin).bits();
+            const std::uint32_t inwards = (along > margin).bits();
             if (item.side == LightSide::kOutside) waiting_[p] &= ~(own & inwards);
-            lanes &= ~(own & (item.side == LightSide::kInside ? own : outwards));
-            rounded |= own & (test.along > Floats(0.0F)).bits();
+            lanes &= ~(own & outwards);
+            if (item.side == LightSide::kInside) {
+                // The way ends inside: blocked iff it starts outside.
+                const Floats square = mul_add(fx, fx, mul_add(fy, fy, fz * fz));
+                const float less = std::max(item.shape.radius - round_error_, 0.0F);
+                waiting_[p] &= ~(lanes & ~own & (square > test.outside).bits());
+                lanes &= ~(own | (square < Floats(less * less)).bits());
+            }
+            rounded |= own & (along > Floats(0.0F)).bits();
         }
         put_aside(slot, p, lanes & waiting_[p], rounded);
     }

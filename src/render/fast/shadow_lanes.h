@@ -64,65 +64,47 @@ struct Ways {
 struct RoundItem {
     HWY_INLINE RoundItem(const ShadowTables& tables, const ShadowTable& table, Slot slot)
         : shape(tables.round(slot)),
-          side(table.round_sides.empty() ? LightSide::kOutside
-                                         : table.round_sides[slot - tables.scene().triangle_end()]),
-          sphere(slot < tables.scene().sphere_end()) {}
+          sphere(slot < tables.scene().sphere_end()),
+          side(table.round_sides.empty()
+                   ? LightSide::kOutside
+                   : table.round_sides[slot - tables.scene().triangle_end()]) {}
 
     const RoundShape& shape;
-    LightSide side;
     bool sphere;
+    LightSide side;
 };
 
-/// What points and ways tell of a sphere; `error` bounds how far a way may be off.
-/// The point of a way nearest to the centre tells all: where it lies inside and both ends lie
-/// outside, the way is blocked; the rounding of its parameter does not matter, for wherever it lies
-/// on the way, it is a point of the way.
+/// The point of a way that is nearest to the centre of a sphere. If it surely lies outside the way
+/// is free: it neither crosses nor touches the sphere. If it surely lies inside, and the light
+/// outside, the way is blocked: it has to come out, at t > 0, wherever it starts; if it starts on
+/// the sphere itself, then inwards. The rounding of the parameter does not matter, for any other is
+/// a point of the way, too.
 struct RoundTest {
-    HWY_INLINE RoundTest(const RoundShape& shape, const Points& p, const Ways& way, Floats error) {
-        const Floats fx = Floats(shape.center[0]) - p.x;
-        const Floats fy = Floats(shape.center[1]) - p.y;
-        const Floats fz = Floats(shape.center[2]) - p.z;
+    /// `error` bounds how far ways may be off.
+    HWY_INLINE RoundTest(const RoundItem& item, const Points& p, const Ways& way,
+                         const Floats& error) {
+        const Floats fx = Floats(item.shape.center[0]) - p.x;
+        const Floats fy = Floats(item.shape.center[1]) - p.y;
+        const Floats fz = Floats(item.shape.center[2]) - p.z;
         const Floats b = mul_add(fx, way.x, mul_add(fy, way.y, fz * way.z));
-        const Floats lx = neg_mul_add(b, way.x, fx);
-        const Floats ly = neg_mul_add(b, way.y, fy);
-        const Floats lz = neg_mul_add(b, way.z, fz);
-        const Floats aside = mul_add(lx, lx, mul_add(ly, ly, lz * lz));
-        const Floats square = mul_add(b, b, aside);
-        const Floats radius(shape.radius);
-        const Floats more = radius + error;
-        const Floats less = max(radius - error, Floats(0.0F));
-        const Floats more_square = more * more;
-        const Floats less_square = less * less;
-        along = b;
-        passes = aside > more_square;
-        outside = square > more_square;
-        inside = square < less_square;
-        crosses = aside < less_square;
-        behind = b <= Floats(0.0F);
-        beyond = b >= way.distance;
+        const Floats at = min(max(b, Floats(0.0F)), way.distance);
+        const Floats lx = neg_mul_add(at, way.x, fx);
+        const Floats ly = neg_mul_add(at, way.y, fy);
+        const Floats lz = neg_mul_add(at, way.z, fz);
+        square = mul_add(lx, lx, mul_add(ly, ly, lz * lz));
+        const Floats more = Floats(item.shape.radius) + error;
+        outside = more * more;
+        // Nothing is surely inside of an ellipsoid's sphere.
+        const bool full = item.sphere && item.side == LightSide::kOutside;
+        const Floats less = max(Floats(full ? item.shape.radius : 0.0F) - error, Floats(0.0F));
+        inside = less * less;
     }
+    HWY_INLINE std::uint32_t free() const { return (square > outside).bits(); }
+    HWY_INLINE std::uint32_t blocked() const { return (square < inside).bits(); }
 
-    /// Lanes whose ways the item surely does not block.
-    HWY_INLINE std::uint32_t free(const RoundItem& item) const {
-        RayMask mask = passes | (outside & behind);
-        if (item.side == LightSide::kOutside) mask = passes | (outside & (behind | beyond));
-        if (item.side == LightSide::kInside && item.sphere) mask = mask | inside;
-        return mask.bits();
-    }
-    /// Lanes whose ways the item surely blocks.
-    HWY_INLINE std::uint32_t blocked(const RoundItem& item) const {
-        if (!item.sphere || item.side == LightSide::kUnknown) return 0;
-        if (item.side == LightSide::kInside) return outside.bits();
-        return (without(crosses & outside, behind | beyond) | inside).bits();
-    }
-
-    Floats along;     ///< from the point to the foot of the centre
-    RayMask passes;   ///< the line surely misses the sphere
-    RayMask outside;  ///< the point surely lies outside, and does not touch
-    RayMask inside;
-    RayMask crosses;  ///< the foot surely lies inside
-    RayMask behind;   ///< the foot lies before the point
-    RayMask beyond;   ///< the foot lies behind the light
+    Floats square;   ///< of the distance of that point from the centre
+    Floats outside;  ///< beyond this the point lies outside
+    Floats inside;   ///< below this inside
 };
 
 }  // namespace nuvo::HWY_NAMESPACE

@@ -19,6 +19,13 @@ namespace nuvo::HWY_NAMESPACE {
 inline constexpr std::size_t kBatch = 8;
 using Wide = Lanes<double, kBatch>;
 
+HWY_INLINE void store_rounded(const Wide& v, float* to) {
+    constexpr std::size_t kPart = Wide::Shape::kPart;
+    const hn::FixedTag<float, kPart> floats;
+    for (std::size_t i = 0; i < Wide::Shape::kParts; ++i)
+        hn::StoreU(hn::DemoteTo(floats, v.part[i]), floats, to + i * kPart);
+}
+
 struct Wide3 {
     Wide x, y, z;
 };
@@ -47,10 +54,12 @@ struct WideTriangles {
 /// the denominator S is negative or the normal turns, 1 where not or both, NaN where unknown.
 /// With S = d.(e2 x e1), V = d.(from x e2), W = d.(e1 x from) as in surface_point(), the normal is
 /// along n0 S + (n1 - n0) V + (n2 - n0) W. Below 2^-49 of its magnitudes a triple product is noise.
+/// `longest` bounds |d|.
 class SmoothFunctions {
   public:
-    HWY_INLINE SmoothFunctions(const CameraRays& camera, const WideTriangles& t, const Wide3& n0,
-                               const Wide3& n1, const Wide3& n2, const Wide& sign) {
+    HWY_INLINE SmoothFunctions(const CameraRays& camera, double longest, const WideTriangles& t,
+                               const Wide3& n0, const Wide3& n1, const Wide3& n2,
+                               const Wide& sign) {
         const Wide largest = max(largest_of(n0), max(largest_of(n1), largest_of(n2)));
         const Wide3 s = cross(t.e2, t.e1);
         const Wide3 v = cross(t.from, t.e2);
@@ -69,20 +78,17 @@ class SmoothFunctions {
         const Wide3 at = along(camera.forward) + right * x + down * y;
         const Wide scale = sign / largest_of(at);
         const Wide edges = norm1(t.e1) + norm1(t.e2);
-        const double longest = nuvo::length(camera.forward) +
-                               camera.resolution.width * nuvo::length(camera.right) +
-                               camera.resolution.height * nuvo::length(camera.down);
         const Wide noise = (norm1(t.from) + edges) * edges * largest * Wide(8 * 0x1p-49 * longest);
         put(at * scale, 0);
         put(right * scale, 3);
         put(down * scale, 6);
-        x.store(values_[9]);
-        y.store(values_[10]);
+        store_rounded(x, values_[9]);
+        store_rounded(y, values_[10]);
         // Of each sum in float: the coefficients' rounding, and 3 of the two operations.
         const Wide roundings = abs(scale) * Wide(4.1 * static_cast<double>(kFloatUnit));
-        mul_add(roundings, size_of(at), abs(scale) * noise).store(values_[11]);
-        (roundings * size_of(right)).store(values_[12]);
-        (roundings * size_of(down)).store(values_[13]);
+        store_rounded(mul_add(roundings, size_of(at), abs(scale) * noise), values_[11]);
+        store_rounded(roundings * size_of(right), values_[12]);
+        store_rounded(roundings * size_of(down), values_[13]);
     }
 
     void store(std::size_t i, SmoothTriangle& out) const {
@@ -111,15 +117,13 @@ class SmoothFunctions {
     }
     static HWY_INLINE Wide size_of(const Wide3& v) { return sqrt(dot(v, v)); }
     HWY_INLINE void put(const Wide3& v, std::size_t row) {
-        v.x.store(values_[row]);
-        v.y.store(values_[row + 1]);
-        v.z.store(values_[row + 2]);
+        store_rounded(v.x, values_[row]);
+        store_rounded(v.y, values_[row + 1]);
+        store_rounded(v.z, values_[row + 2]);
     }
-    float value(std::size_t row, std::size_t i) const {
-        return static_cast<float>(values_[row][i]);
-    }
+    float value(std::size_t row, std::size_t i) const { return values_[row][i]; }
 
-    double values_[14][kBatch];
+    float values_[14][kBatch];
 };
 
 }  // namespace nuvo::HWY_NAMESPACE
