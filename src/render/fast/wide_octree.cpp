@@ -18,13 +18,9 @@ namespace {
 
 // Prices of a step through a node, of reaching a leaf and of a register of primitives there,
 // measured on random rays.
-float E(const char* n, float d) {
-    const char* e = getenv(n);
-    return e ? atof(e) : d;
-}
-float kNodeCost = E("KN", 1);
-float kLeafCost = E("KL", 0.75F);
-float kBlockCost = E("KB", 0.75F);
+constexpr float kNodeCost = 1;
+constexpr float kLeafCost = 0.75F;
+constexpr float kBlockCost = 0.75F;
 
 float half_area(const Bounds3T<float>& box) {
     if (box.empty()) return 0;
