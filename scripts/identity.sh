@@ -67,7 +67,8 @@ picture() {
 status=0
 for scene in "${scenes[@]}"; do
     faults=() pictures=0
-    picture exact --profile=exact
+    rm -f "$work"/*.bmp
+    picture exact --profile=exact || faults+=("--profile=exact gave no picture")
     for isa in "${instruction_sets[@]}"; do
         for type in uniform nonuniform; do
             for count in "${threads[@]}"; do

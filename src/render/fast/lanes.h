@@ -103,11 +103,18 @@ struct Lanes : LaneShape<T, N> {
             v.part[i] = hn::LoadU(Tag(), from + i * Shape::kPart);
         return v;
     }
-    /// The lanes of `mask`, 0 in the others, which must be readable, too.
+    /// 0 in the other lanes. All N numbers must be readable: SSE4 reads them, and its MaskedLoad
+    /// would ask for an aligned address.
     static HWY_INLINE Lanes load(const T* from, const Mask& mask) {
         Lanes v;
-        for (std::size_t i = 0; i < Shape::kParts; ++i)
-            v.part[i] = hn::IfThenElseZero(mask.part[i], hn::LoadU(Tag(), from + i * Shape::kPart));
+        for (std::size_t i = 0; i < Shape::kParts; ++i) {
+#if HWY_TARGET == HWY_SSE4
+            const auto all = hn::LoadU(Tag(), from + i * Shape::kPart);
+            v.part[i] = hn::IfThenElseZero(mask.part[i], all);
+#else
+            v.part[i] = hn::MaskedLoad(mask.part[i], Tag(), from + i * Shape::kPart);
+#endif
+        }
         return v;
     }
     /// From 16-bit numbers.

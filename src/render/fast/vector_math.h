@@ -61,8 +61,8 @@ HWY_INLINE Floats polynomial(const float (&coefficients)[kCount], const Floats& 
 }
 
 /// (1 - z)^exponent for 0 <= z < 1, exponent >= 0, within kPowerError (absolutely; 1.8 u measured
-/// over 4 * 10^6 pairs). It is asked for the complement because a specular lobe is steep where 1 - z
-/// would lose z's digits. log2(m 2^k) = k + f P(f), f = m - 1 = -z if k = 0, is within 3 u
+/// over 4 * 10^6 pairs). It is asked for the complement because a specular lobe is steep where 1 -
+/// z would lose z's digits. log2(m 2^k) = k + f P(f), f = m - 1 = -z if k = 0, is within 3 u
 /// relatively, the product y with the exponent 4 u; 2^y sees it times y ln 2, and 2^y |y| ln 2 <=
 /// 0.37: 1.5 u; its own polynomial and scaling add 3 u. Below 2^-125 the result stays there.
 inline constexpr float kPowerError = 6 * kUnit;
@@ -100,8 +100,8 @@ HWY_INLINE Floats power_of_complement(const Floats& z, const Floats& exponent) {
 
 /// The angle in 0..pi whose cosine is x, |x| <= 1, within kArcError (absolutely; 6.4 u measured
 /// over 4 * 10^6 numbers): pi / 2 - asin(x), near the ends 2 asin(sqrt((1 - |x|) / 2)), where 1 -
-/// |x| is exact. asin(s) / s is a polynomial in s^2 <= 1/4, within 2^-27.6. Of results near pi: pi's
-/// rounding 1.5 u, two differences of 2 u, and twice the arc's.
+/// |x| is exact. asin(s) / s is a polynomial in s^2 <= 1/4, within 2^-27.6. Of results near pi:
+/// pi's rounding 1.5 u, two differences of 2 u, and twice the arc's.
 inline constexpr float kArcError = 8 * kUnit;
 HWY_INLINE Floats arc_cosine(const Floats& x) {
     static constexpr float kArcSine[] = {0.999999995984F,  0.166667820058F,  0.0749469668742F,
