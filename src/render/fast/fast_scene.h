@@ -3,11 +3,13 @@
 #include <cstdint>
 #include <vector>
 
+#include "big_vector.h"
 #include "nuvo/math/bounds.h"
 #include "nuvo/octree/compact_build.h"
 #include "nuvo/render/fast.h"
 #include "nuvo/render/primitives.h"
 #include "nuvo/scene/scene.h"
+#include "octant_tests.h"
 
 namespace nuvo {
 
@@ -39,7 +41,7 @@ class FastScene {
     const LocalFrame& frame() const { return frame_; }
     const CompactOctree& octree() const { return octree_; }
     /// Another one; `overlaps` of the options is filled in.
-    CompactOctree octree(CompactBuildOptions options) const;
+    CompactOctree octree(const CompactBuildOptions& options) const;
 
     Slot triangle_end() const { return triangle_end_; }
     Slot sphere_end() const { return sphere_end_; }
@@ -47,6 +49,8 @@ class FastScene {
     /// Document order's name of the primitive.
     PrimitiveId id(Slot slot) const { return ids_.empty() ? slot : ids_[slot]; }
     const PrimitiveSource& source(Slot slot) const { return primitives_.sources[id(slot)]; }
+    /// Corners rounded to nearest, by slot.
+    const BigVector<LocalTriangle>& triangles() const { return triangles_; }
 
   private:
     const Scene& scene_;
@@ -56,6 +60,7 @@ class FastScene {
     Slot sphere_end_ = 0;
     Slot slot_end_ = 0;
     std::vector<PrimitiveId> ids_;  // empty: the same order
+    BigVector<LocalTriangle> triangles_;
     CompactOctree octree_;
 };
 

@@ -101,6 +101,7 @@ ShadowTables::ShadowTables(const FastScene& scene, InstructionSet isa, int threa
         made += scene.triangle_end();
         add_planes(light, table, isa, threads);
         add_sides(table);
+        table.buffer = LightBuffer(table.light, {scene, rounds_, reach_, round_error_}, isa);
     }
 }
 
@@ -167,7 +168,8 @@ void ShadowTables::add_sides(ShadowTable& table) const {
 
 std::size_t ShadowTables::memory_bytes() const {
     std::size_t bytes = rounds_.size() * sizeof(RoundShape) + planes_.size() * sizeof(ShadowPlanes);
-    for (const ShadowTable& table : tables_) bytes += table.round_sides.size() * sizeof(LightSide);
+    for (const ShadowTable& table : tables_)
+        bytes += table.round_sides.size() * sizeof(LightSide) + table.buffer.memory_bytes();
     return bytes;
 }
 
