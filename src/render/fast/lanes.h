@@ -301,6 +301,16 @@ HWY_INLINE LaneMask<To, N> mask_for(const LaneMask<From, N>& mask) requires(size
     return out;
 }
 
+/// to[4 i] = a[i], to[4 i + 1] = b[i], to[4 i + 2] = c[i], to[4 i + 3] = d[i].
+template <typename T, std::size_t N>
+HWY_INLINE void store_by_fours(const Lanes<T, N>& a, const Lanes<T, N>& b, const Lanes<T, N>& c,
+                               const Lanes<T, N>& d, T* to) {
+    using Shape = LaneShape<T, N>;
+    for (std::size_t i = 0; i < Shape::kParts; ++i)
+        hn::StoreInterleaved4(a.part[i], b.part[i], c.part[i], d.part[i], typename Shape::Tag(),
+                              to + 4 * i * Shape::kPart);
+}
+
 using Floats = Lanes<float, 16>;  ///< one number for each of 16 rays
 using RayMask = LaneMask<float, 16>;
 using Ints = Lanes<std::int32_t, 16>;

@@ -16,6 +16,9 @@
 HWY_BEFORE_NAMESPACE();
 namespace nuvo::HWY_NAMESPACE {
 
+alignas(64) constexpr std::int32_t kLaneNumbers[16] = {0, 1, 2,  3,  4,  5,  6,  7,
+                                                       8, 9, 10, 11, 12, 13, 14, 15};
+
 class LightBufferMaker {
   public:
     LightBufferMaker(LightBuffer& out, const LightPoint& light, const LightBuffer::Source& source)
@@ -24,9 +27,9 @@ class LightBufferMaker {
           triangle_end_(source.scene.triangle_end()),
           end_(source.scene.slot_end()) {
         if (!light.finite || !(source.reach < 1.5) || end_ == 0) return;
-        if (!plane_.start(light, source, out, extent_)) cube_.start(light, source, out, extent_);
+        if (!plane_.start(light, source, out, extent_)) cube_.start(light, out, extent_);
         faces_ = out.inside ? 6 : 1;
-        for (int i = 0; i < 2; ++i) out.steps[i] = static_cast<float>(kLightSteps) / extent_[i];
+        allow(kLeastError);
     }
 
     void run() {
@@ -42,20 +45,61 @@ class LightBufferMaker {
     }
 
   private:
+    static constexpr double kFloatUnit = 0x1p-24;
     // Cells of a grid are so many times as wide as those of the finer one, and an item that covers
     // more cells than a cell of the coarser grid does belongs there.
     static constexpr int kCoarser = 8;
-    // In the size of the middle item: what a cell lists too much is cheap to tell.
-    static constexpr double kCellSize = 3;
+    // Cells of the finest grid have few items, but are not much smaller than the middle one, which
+    // would be listed often.
+    static constexpr double kMostItems = 16;
+    static constexpr double kMostWide = 3;
+    static constexpr double kLeastWide = 0.75;
     // Cells for each item on all faces: they have to be counted and added up.
     static constexpr double kMostCells = 2;
     // Where an entry's list is longer than this on average the octree is faster.
-    static constexpr double kLongLists = 512;
+    static constexpr double kLongLists = 4096;
 
+    // What points may be off, in the size of the middle item and in general.
+    static constexpr double kErrorShare = 0x1p-4;
+    static constexpr double kLeastError = 0x1p-20;
+    static constexpr double kMostError = 0x1p-14;
+
+    void allow(double error) {
+        out_.point_error = static_cast<float>(error);
+        // A local coordinate, and a sphere's centre and radius, have a rounding of at most 2 each.
+        const double all = error + source_.touch + 4 * kFloatUnit;
+        if (out_.inside)
+            cube_.allow(all, out_);
+        else
+            plane_.allow(all);
+    }
+
+    // The cells that an item covers on its grid: at most kCoarser^2 but for the last grid, which
+    // has only one.
     struct Record {
         LightEntry entry;
+        std::uint32_t first;
+        std::uint8_t columns;
+        std::uint8_t rows;
         std::uint8_t grid;
-        std::uint8_t face;
+    };
+    // The same for 16 items.
+    struct Cells {
+        HWY_INLINE Cells(const LightGrid& grid, int face, const Ints (&low)[2],
+                         const Ints (&high)[2]) {
+            const Ints column = cell_of(low[0], grid.columns);
+            const Ints row = cell_of(low[1], grid.rows);
+            const auto base =
+                static_cast<std::int32_t>(grid.first_cell) + face * grid.rows * grid.columns;
+            (column + row * Ints(grid.columns) + Ints(base)).store(first);
+            (cell_of(high[0], grid.columns) - column + Ints(1)).store(columns);
+            (cell_of(high[1], grid.rows) - row + Ints(1)).store(rows);
+        }
+        bool few(int i) const { return columns[i] * rows[i] <= kCoarser * kCoarser; }
+
+        alignas(64) std::int32_t first[16];
+        alignas(64) std::int32_t columns[16];
+        alignas(64) std::int32_t rows[16];
     };
 
     /// Calls use(face, ranges, lanes) for the faces on which items [first, first + 16) are met.
@@ -104,99 +148,115 @@ class LightBufferMaker {
     }
 
     void choose_grids() {
+        const double size = sample();
+        for (int i = 0; i < 2; ++i) out_.steps[i] = static_cast<float>(kLightSteps) / extent_[i];
         const double least =
             std::sqrt(static_cast<double>(extent_[0]) * extent_[1] * faces_ / (kMostCells * end_));
-        for (double size = std::fmax(kCellSize * middle_size(), least);; size *= kCoarser) {
+        const double fine =
+            std::sqrt(static_cast<double>(extent_[0]) * extent_[1] * faces_ * kMostItems / end_);
+        double width = std::max({std::min(kMostWide * size, fine), kLeastWide * size, least});
+        while (out_.grids.empty() || cells_of(out_.grids.back()) > 1) {
+            const bool last = out_.grids.size() + 1 == LightBuffer::kMaxGrids;
             const auto count = [&](int i) {
-                return static_cast<int>(std::clamp(extent_[i] / size, 1.0, 8192.0));
+                return last ? 1 : static_cast<int>(std::clamp(extent_[i] / width, 1.0, 8192.0));
             };
             out_.grids.push_back({count(0), count(1), cells_});
             cells_ += cells_of(out_.grids.back());
-            if (out_.grids.size() == LightBuffer::kMaxGrids || cells_of(out_.grids.back()) == 1)
-                break;
+            if (last) break;
+            width *= kCoarser;
         }
     }
     std::uint32_t cells_of(const LightGrid& grid) const {
         return static_cast<std::uint32_t>(faces_ * grid.columns * grid.rows);
     }
-    // On the longer of both axes.
-    double middle_size() {
+    // Goes by some of the items: how large they are tells how far points may be off. Where most of
+    // them keep to a small part of the grid, that becomes the grid, and its border stands for the
+    // rest. Returns the middle size of an item, on the longer of both axes.
+    double sample() {
         constexpr Slot kBatches = 64;
         std::vector<float> sizes;
+        std::vector<float> lengths;  // before they were projected
+        std::vector<float> centers[2];
         for (Slot i = 0; i < kBatches; ++i) {
             const auto first = static_cast<Slot>(std::uint64_t{end_} * i / kBatches);
             for_each_face(first, [&](int, const LightRanges& ranges, std::uint32_t lanes) {
                 alignas(64) float size[16];
-                max(ranges.high[0] - ranges.low[0], ranges.high[1] - ranges.low[1]).store(size);
-                for (; lanes != 0; lanes &= lanes - 1)
-                    sizes.push_back(size[std::countr_zero(lanes)]);
+                alignas(64) float length[16];
+                alignas(64) float center[2][16];
+                const Floats larger =
+                    max(ranges.high[0] - ranges.low[0], ranges.high[1] - ranges.low[1]);
+                larger.store(size);
+                (out_.inside ? larger * ranges.near : larger).store(length);
+                for (int k = 0; k < 2; ++k)
+                    ((ranges.high[k] + ranges.low[k]) * Floats(0.5F)).store(center[k]);
+                for (; lanes != 0; lanes &= lanes - 1) {
+                    const int lane = std::countr_zero(lanes);
+                    sizes.push_back(size[lane]);
+                    lengths.push_back(length[lane]);
+                    for (int k = 0; k < 2; ++k) centers[k].push_back(center[k][lane]);
+                }
             });
         }
+        for (int k = 0; k < 2; ++k) narrow(k, centers[k]);
         if (sizes.empty()) return extent_[0];
-        const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-        std::nth_element(sizes.begin(), middle, sizes.end());
-        return *middle;
+        allow(std::clamp(quantile(lengths, 0.5) * kErrorShare, kLeastError, kMostError));
+        return quantile(sizes, 0.5);
+    }
+    void narrow(int k, std::vector<float>& centers) {
+        constexpr double kMuch = 4;
+        constexpr double kLeastShare = 0x1p-14;
+        if (centers.empty()) return;
+        const double low = quantile(centers, 0.02);
+        const double high = quantile(centers, 0.98);
+        const double width = 1.5 * (high - low);
+        if (!(kMuch * width < extent_[k]) || width < kLeastShare * extent_[k]) return;
+        out_.low[k] = static_cast<float>(low - 0.25 * (high - low));
+        extent_[k] = static_cast<float>(width);
+    }
+    static double quantile(std::vector<float>& v, double share) {
+        const auto at =
+            v.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(v.size() - 1));
+        std::nth_element(v.begin(), at, v.end());
+        return *at;
     }
 
     HWY_INLINE void record(Slot first, int face, const LightRanges& ranges, std::uint32_t lanes) {
-        alignas(64) std::int32_t low[2][16];
-        alignas(64) std::int32_t high[2][16];
-        alignas(64) float near[16];
-        ranges.near.store(near);
+        Ints low[2];
+        Ints high[2];
+        alignas(64) LightEntry entries[16];
         for (int i = 0; i < 2; ++i) {
-            integers_from(step_of(out_, i, ranges.low[i])).store(low[i]);
-            integers_from(step_of(out_, i, ranges.high[i])).store(high[i]);
+            low[i] = integers_from(step_of(out_, i, ranges.low[i]));
+            high[i] = integers_from(step_of(out_, i, ranges.high[i]));
         }
+        const auto pair = [](const Ints(&v)[2]) { return v[0] | shift_left<16>(v[1]); };
+        const Ints slots = Ints(static_cast<std::int32_t>(first)) + Ints::load(kLaneNumbers);
+        store_by_fours(slots, bits_of(ranges.near), pair(low), pair(high),
+                       reinterpret_cast<std::int32_t*>(entries));
         if (used_ + 16 > records_.size()) records_.resize(2 * records_.size() + 16);
-        for (; lanes != 0; lanes &= lanes - 1) {
-            const int i = std::countr_zero(lanes);
-            Record& record = records_[used_++];
-            record.entry.slot = first + static_cast<Slot>(i);
-            record.entry.near = near[i];
-            for (int k = 0; k < 2; ++k) {
-                record.entry.low[k] = static_cast<std::uint16_t>(low[k][i]);
-                record.entry.high[k] = static_cast<std::uint16_t>(high[k][i]);
+        for (std::size_t g = 0; lanes != 0; ++g) {
+            const Cells cells(out_.grids[g], face, low, high);
+            std::uint32_t left = 0;
+            for (; lanes != 0; lanes &= lanes - 1) {
+                const int i = std::countr_zero(lanes);
+                if (!cells.few(i)) {
+                    left |= lanes & -lanes;
+                    continue;
+                }
+                Record& record = records_[used_++];
+                record = {entries[i], static_cast<std::uint32_t>(cells.first[i]),
+                          static_cast<std::uint8_t>(cells.columns[i]),
+                          static_cast<std::uint8_t>(cells.rows[i]), static_cast<std::uint8_t>(g)};
+                for_each_cell(record, [&](std::uint32_t cell) { ++out_.starts[cell + 2]; });
             }
-            record.face = static_cast<std::uint8_t>(face);
-            count(record);
+            lanes = left;
         }
-    }
-
-    // The cells that an item covers on a grid.
-    struct Cells {
-        std::uint32_t first;
-        std::uint32_t columns;
-        std::uint32_t rows;
-    };
-    Cells cells(const Record& record, const LightGrid& grid) const {
-        const auto at = [](std::uint32_t step, int count) {
-            return step * static_cast<std::uint32_t>(count) / kLightSteps;
-        };
-        const LightEntry& e = record.entry;
-        const std::uint32_t column = at(e.low[0], grid.columns);
-        const std::uint32_t row = at(e.low[1], grid.rows);
-        const auto above = static_cast<std::uint32_t>(record.face * grid.rows);
-        return {grid.first_cell + (above + row) * static_cast<std::uint32_t>(grid.columns) + column,
-                at(e.high[0], grid.columns) - column + 1, at(e.high[1], grid.rows) - row + 1};
     }
     template <typename Use>
-    void for_each_cell(const Cells& cells, const LightGrid& grid, Use&& use) const {
-        std::uint32_t first = cells.first;
-        for (std::uint32_t y = 0; y < cells.rows; ++y) {
-            for (std::uint32_t x = 0; x < cells.columns; ++x) use(first + x);
-            first += static_cast<std::uint32_t>(grid.columns);
-        }
-    }
-    HWY_INLINE void count(Record& record) {
-        for (std::size_t g = 0;; ++g) {
-            const LightGrid& grid = out_.grids[g];
-            const Cells covered = cells(record, grid);
-            if (covered.columns * covered.rows > kCoarser * kCoarser && g + 1 < out_.grids.size())
-                continue;
-            record.grid = static_cast<std::uint8_t>(g);
-            for_each_cell(covered, grid, [&](std::uint32_t cell) { ++out_.starts[cell + 2]; });
-            return;
-        }
+    HWY_INLINE void for_each_cell(const Record& record, Use&& use) const {
+        const auto columns = static_cast<std::uint32_t>(out_.grids[record.grid].columns);
+        std::uint32_t first = record.first;
+        for (std::uint32_t y = 0; y < record.rows; ++y, first += columns)
+            for (std::uint32_t x = 0; x < record.columns; ++x) use(first + x);
     }
 
     // Makes starts[c + 1] the start of cell c; false: its lists are too long.
@@ -217,8 +277,7 @@ class LightBufferMaker {
         out_.entries.resize(out_.starts[cells_ + 1] + kReadAhead);
         for (std::size_t i = 0; i < used_; ++i) {
             const Record& record = records_[i];
-            const LightGrid& grid = out_.grids[record.grid];
-            for_each_cell(cells(record, grid), grid, [&](std::uint32_t cell) {
+            for_each_cell(record, [&](std::uint32_t cell) {
                 out_.entries[out_.starts[cell + 1]++] = record.entry;
             });
         }

@@ -49,8 +49,6 @@ struct LightBuffer {
         double reach;  ///< bounds |coordinate| in the scene
         double touch;  ///< what lies within this of a way may block it
     };
-    /// Points known less well than this, on each axis, are not looked up.
-    static constexpr float kPointError = 0x1p-14F;
     static constexpr std::size_t kMaxGrids = 4;
 
     LightBuffer() = default;
@@ -62,13 +60,15 @@ struct LightBuffer {
         return starts.size() * sizeof(std::uint32_t) + entries.size() * sizeof(LightEntry);
     }
 
-    bool inside = false;              ///< six faces; else one
-    int axis = 0;                     ///< k of the one face
-    float sign = 1;                   ///< of W_k
-    float low[2] = {};                ///< u and v of step 0
-    float steps[2] = {};              ///< per unit of u and v
-    float nearest = 0;                ///< inside: points with a lesser W_k are not looked up
-    std::vector<LightGrid> grids;     ///< from fine to coarse
+    bool inside = false;           ///< six faces; else one
+    int axis = 0;                  ///< k of the one face
+    float sign = 1;                ///< of W_k
+    float low[2] = {};             ///< u and v of step 0
+    float steps[2] = {};           ///< per unit of u and v
+    float point_error = 0;         ///< points known this well are looked up in one cell of a grid
+    float stretch = 0;             ///< of u and v for an error of 1; inside: of W_k = 1
+    float nearest = 0;             ///< inside: points with a lesser W_k are not looked up
+    std::vector<LightGrid> grids;  ///< from fine to coarse
     BigVector<std::uint32_t> starts;  ///< of the cells' lists, and the end
     BigVector<LightEntry> entries;    ///< and room for a few more to be read
 };

@@ -33,19 +33,22 @@ struct LightPlaces {
         for (int axis = 0; axis < 3; ++axis)
             w[axis] =
                 neg_mul_add(*at[axis], weight, Floats(static_cast<float>(light.toward[axis])));
-        RayMask good = error <= Floats(LightBuffer::kPointError);
         if (buffer.inside) {
-            in_cube(buffer, w, good);
+            in_cube(w);
+            stretch = Floats(buffer.stretch) / depth;
+            known = (depth >= Floats(buffer.nearest)).bits();
         } else {
             const int k = buffer.axis;
-            const int u = (k + 1) % 3;
-            const int v = (k + 2) % 3;
+            const int axes[2] = {(k + 1) % 3, (k + 2) % 3};
             const Floats to_plane = *at[k] / w[k];
-            step[0] = step_of(buffer, 0, neg_mul_add(to_plane, w[u], *at[u]));
-            step[1] = step_of(buffer, 1, neg_mul_add(to_plane, w[v], *at[v]));
+            for (int i = 0; i < 2; ++i) u[i] = neg_mul_add(to_plane, w[axes[i]], *at[axes[i]]);
             depth = *at[k] * Floats(-buffer.sign);
+            stretch = Floats(buffer.stretch);
+            known = 0xffff;
         }
-        known = good.bits();
+        for (int i = 0; i < 2; ++i) step[i] = step_of(buffer, i, u[i]);
+        known &= (error <= Floats(kMostError)).bits();
+        good = known & (error <= Floats(buffer.point_error)).bits();
     }
 
     /// The cells of a grid.
@@ -55,13 +58,19 @@ struct LightPlaces {
         return column + row * Ints(grid.columns) + Ints(static_cast<std::int32_t>(grid.first_cell));
     }
 
+    Floats u[2];
     Floats step[2];
     Floats depth;
+    Floats stretch;  ///< bounds what u changes by for an error of 1
     Ints face{0};
-    std::uint32_t known;  ///< lanes that are known well enough
+    std::uint32_t known;  ///< lanes that can be looked up
+    std::uint32_t good;   ///< lanes for which one cell of a grid is enough
 
   private:
-    HWY_INLINE void in_cube(const LightBuffer& buffer, const Floats (&w)[3], RayMask& good) {
+    // Worse known points may be met all over a grid, or on several faces.
+    static constexpr float kMostError = 0x1p-10F;
+
+    HWY_INLINE void in_cube(const Floats (&w)[3]) {
         const Floats ax = abs(w[0]);
         const Floats ay = abs(w[1]);
         const Floats az = abs(w[2]);
@@ -71,10 +80,9 @@ struct LightPlaces {
                                 HWY_ATTR { return select(x, a, select(y, b, c)); };
         const Floats deep = choose(w[0], w[1], w[2]);
         depth = abs(deep);
-        good = good & (depth >= Floats(buffer.nearest));
         const Floats inverse = Floats(1.0F) / depth;
-        step[0] = step_of(buffer, 0, choose(w[1], w[2], w[0]) * inverse);
-        step[1] = step_of(buffer, 1, choose(w[2], w[0], w[1]) * inverse);
+        u[0] = choose(w[1], w[2], w[0]) * inverse;
+        u[1] = choose(w[2], w[0], w[1]) * inverse;
         face = integers_from(choose(Floats(0.0F), Floats(2.0F), Floats(4.0F)) +
                              select(deep < Floats(0.0F), Floats(1.0F), Floats(0.0F)));
     }

@@ -16,7 +16,7 @@
 // Where 16 items at a time may be met by the ways from a light, rounded outwards.
 //
 // A way from a true point P* through a point Q of an item meets the light's plane or face where Q
-// does, and Q lies less deep. What is looked up is P, which is off by kPointError at most; so an
+// does, and Q lies less deep. What is looked up is P, which is off by some error at most; so an
 // item's range is widened by how far that, the item's own roundings and those of the map can move
 // u and v.
 
@@ -60,12 +60,11 @@ class PlaneRanges {
         // e weight (1 + |s|) / least, u by e (1 + |s|) and P_k times that. W has two roundings of
         // numbers up to 2; s, the product and the difference three more.
         const double slope = (other + light.weight * reach) / least;
-        const double error = error_of(source);
         const double roundings = 4 * kFloatUnit / least + 4 * kFloatUnit;
-        margin_ = static_cast<float>(
-            2 * (1 + slope) * (error * (1 + reach * light.weight / least) + reach * roundings));
-        depth_margin_ = static_cast<float>(2 * error);
+        stretch_ = 2 * (1 + slope) * (1 + reach * light.weight / least);
+        rounding_ = 2 * (1 + slope) * reach * roundings;
         out.inside = false;
+        out.stretch = static_cast<float>(stretch_);
         out.axis = k;
         out.sign = light.toward[k] > 0 ? 1.0F : -1.0F;
         away_ = -out.sign;
@@ -102,15 +101,17 @@ class PlaneRanges {
         return out;
     }
 
-    static double error_of(const LightBuffer::Source& source) {
-        // A local coordinate, and a sphere's centre and radius, have a rounding of at most 2 each.
-        return LightBuffer::kPointError + source.touch + 4 * kFloatUnit;
+    /// `error` bounds that of points on each axis, and the items' own.
+    void allow(double error) {
+        margin_ = static_cast<float>(stretch_ * error + rounding_);
+        depth_margin_ = static_cast<float>(2 * error);
     }
 
   private:
     static constexpr double kFloatUnit = 0x1p-24;
     // Seen from nearer, the scene's near side would fill most of the plane.
     static constexpr double kLeastShare = 0.25;
+    static constexpr float kLeastExtent = 0x1p-20F;
 
     HWY_INLINE Floats meets(const Floats& p, const Floats& deep, int axis) const {
         const Floats w = neg_mul_add(p, Floats(weight_), Floats(toward_[axis]));
@@ -132,7 +133,7 @@ class PlaneRanges {
                     high = std::fmax(high, p - deep * (w / wk));
                 }
             out.low[i] = static_cast<float>(low);
-            extent[i] = std::fmax(static_cast<float>(high - low), margin_);
+            extent[i] = std::fmax(static_cast<float>(high - low), kLeastExtent);
         }
     }
 
@@ -140,6 +141,8 @@ class PlaneRanges {
     float toward_[3] = {};
     float weight_ = 0;
     float away_ = 0;
+    double stretch_ = 0;
+    double rounding_ = 0;
     float margin_ = 0;  // of u and v
     float depth_margin_ = 0;
 };
@@ -147,18 +150,22 @@ class PlaneRanges {
 /// Through the six faces of a cube around a light among the items. [light_buffer.h]
 class CubeRanges {
   public:
-    void start(const LightPoint& light, const LightBuffer::Source& source, LightBuffer& out,
-               float (&extent)[2]) {
+    void start(const LightPoint& light, LightBuffer& out, float (&extent)[2]) {
         for (int axis = 0; axis < 3; ++axis) toward_[axis] = static_cast<float>(light.toward[axis]);
         weight_ = static_cast<float>(light.weight);
-        // Of W, which has three roundings of numbers up to 2.
-        error_ = static_cast<float>(light.weight * PlaneRanges::error_of(source) + 8 * kFloatUnit);
         out.inside = true;
-        out.nearest = 2 * kNear * error_;
+        out.stretch = 4 * weight_;
         for (int i = 0; i < 2; ++i) {
             out.low[i] = -1;
             extent[i] = 2;
         }
+    }
+
+    /// `error` bounds that of points on each axis, and the items' own.
+    void allow(double error, LightBuffer& out) {
+        // W has three roundings of numbers up to 2.
+        error_ = static_cast<float>(weight_ * error + 8 * kFloatUnit);
+        out.nearest = 2 * kNear * error_;
     }
 
     /// The items that the next calls of of() are about.

@@ -31,29 +31,26 @@ class ShadowLookup {
         if (!buffer_.usable()) return 0;
         const ShadowBlock& block = blocks_[b];
         const LightPlaces places(buffer_, context_.table.light, block.points(), block.error());
+        const std::uint32_t good = block.waiting() & places.good;
         Stored stored;
         for (int i = 0; i < 2; ++i) places.step[i].store(stored.step[i]);
         places.depth.store(stored.depth);
-        const std::uint32_t known = block.waiting() & places.known;
         for (const LightGrid& grid : buffer_.grids) {
             const Ints cells = places.cells(grid);
             cells.store(stored.cell);
-            for (std::uint32_t todo = known; todo != 0;) {
+            for (std::uint32_t todo = good; todo != 0;) {
                 const int lane = std::countr_zero(todo);
                 const std::uint32_t lanes = todo & (cells == Ints(stored.cell[lane])).bits();
                 todo ^= lanes;
-                Visit& visit = visits_[visit_count_++];
-                visit.cell = static_cast<std::uint32_t>(stored.cell[lane]);
-                visit.block = static_cast<std::uint16_t>(b);
-                visit.lanes = static_cast<std::uint16_t>(lanes);
-                hwy::Prefetch(&buffer_.starts[visit.cell]);
+                Visit& visit = add_visit(b, lanes, static_cast<std::uint32_t>(stored.cell[lane]));
                 if ((lanes & (lanes - 1)) == 0)
                     put_window(visit, stored, lane);
                 else
                     put_window(visit, places, lanes);
             }
         }
-        return known;
+        const std::uint32_t rough = block.waiting() & places.known & ~places.good;
+        return HWY_UNLIKELY(rough != 0) ? good | add_rough(b, places, rough) : good;
     }
 
     /// Tests all points that were added.
@@ -86,8 +83,81 @@ class ShadowLookup {
         alignas(64) float depth[16];
         alignas(64) std::int32_t cell[16];
     };
-    static constexpr int kMaxVisits = LightBuffer::kMaxGrids * kTileLanes;
+    static constexpr int kMaxVisits = 512;
     static constexpr int kMaxCandidates = 256;
+
+    HWY_INLINE Visit& add_visit(int b, std::uint32_t lanes, std::uint32_t cell) {
+        if (HWY_UNLIKELY(visit_count_ == kMaxVisits)) run();
+        Visit& visit = visits_[visit_count_++];
+        visit.cell = cell;
+        visit.block = static_cast<std::uint16_t>(b);
+        visit.lanes = static_cast<std::uint16_t>(lanes);
+        hwy::Prefetch(&buffer_.starts[cell]);
+        return visit;
+    }
+
+    // Points that are known less well are looked up in all cells where they may be, if these are
+    // few.
+    HWY_NOINLINE std::uint32_t add_rough(int b, const LightPlaces& places, std::uint32_t lanes) {
+        constexpr int kFew = 16;
+        const Floats& error = blocks_[b].error();
+        const Floats moved = places.stretch * error;
+        Rough rough;
+        RayMask on_face = moved >= Floats(0.0F);
+        for (int i = 0; i < 2; ++i) {
+            integers_from(step_of(buffer_, i, places.u[i] - moved)).store(rough.low[i]);
+            integers_from(step_of(buffer_, i, places.u[i] + moved)).store(rough.high[i]);
+            if (buffer_.inside) on_face = on_face & (abs(places.u[i]) + moved < Floats(1.0F));
+        }
+        (places.depth + error).store(rough.depth);
+        places.face.store(rough.face);
+        std::uint32_t added = 0;
+        for (lanes &= on_face.bits(); lanes != 0; lanes &= lanes - 1) {
+            const int lane = std::countr_zero(lanes);
+            // On coarser grids they are fewer.
+            if (cells_of(rough, lane, buffer_.grids.front()).count() > kFew) continue;
+            added |= 1U << lane;
+            for (const LightGrid& grid : buffer_.grids) add_rough(b, rough, lane, grid);
+        }
+        return added;
+    }
+    struct Rough {
+        alignas(64) std::int32_t low[2][16];
+        alignas(64) std::int32_t high[2][16];
+        alignas(64) std::int32_t face[16];
+        alignas(64) float depth[16];
+    };
+    struct Cells {
+        int low[2];
+        int high[2];
+        int count() const { return (high[0] - low[0] + 1) * (high[1] - low[1] + 1); }
+    };
+    static Cells cells_of(const Rough& rough, int lane, const LightGrid& grid) {
+        const auto at = [](std::uint32_t step, int count) {
+            return static_cast<int>(step * static_cast<std::uint32_t>(count) / kLightSteps);
+        };
+        Cells cells;
+        const int counts[2] = {grid.columns, grid.rows};
+        for (int i = 0; i < 2; ++i) {
+            cells.low[i] = at(static_cast<std::uint32_t>(rough.low[i][lane]), counts[i]);
+            cells.high[i] = at(static_cast<std::uint32_t>(rough.high[i][lane]), counts[i]);
+        }
+        return cells;
+    }
+    void add_rough(int b, const Rough& rough, int lane, const LightGrid& grid) {
+        const Cells cells = cells_of(rough, lane, grid);
+        for (int row = cells.low[1]; row <= cells.high[1]; ++row)
+            for (int column = cells.low[0]; column <= cells.high[0]; ++column) {
+                const int cell = (rough.face[lane] * grid.rows + row) * grid.columns + column;
+                Visit& visit =
+                    add_visit(b, 1U << lane, grid.first_cell + static_cast<std::uint32_t>(cell));
+                for (int i = 0; i < 2; ++i) {
+                    visit.low[i] = rough.low[i][lane];
+                    visit.high[i] = rough.high[i][lane];
+                }
+                visit.depth = rough.depth[lane];
+            }
+    }
 
     static HWY_INLINE void put_window(Visit& visit, const Stored& stored, int lane) {
         for (int i = 0; i < 2; ++i)
