@@ -23,9 +23,7 @@ Kind kind_of(const Object& object) {
     return std::holds_alternative<Sphere>(object.shape) ? kSphereKind : kEllipsoidKind;
 }
 
-LocalFrame frame_of(const Primitives& primitives) {
-    Bounds3 box;
-    for (const Bounds3& b : primitives.item_boxes) box = box.extended(b);
+LocalFrame frame_of(const Bounds3& box) {
     if (box.empty()) return {};
     LocalFrame frame;
     frame.center = box.center();
@@ -142,7 +140,11 @@ OctantTest octant_test(const LocalItems& items) {
 }  // namespace
 
 FastScene::FastScene(const Scene& scene, const Primitives& primitives, OctreeType type, int threads)
-    : scene_(scene), primitives_(primitives), frame_(frame_of(primitives)) {
+    : scene_(scene), primitives_(primitives) {
+    Bounds3 box;
+    for (const Bounds3& b : primitives.item_boxes) box = box.extended(b);
+    frame_ = frame_of(box);
+    if (!box.empty()) largest_coordinate_ = std::max(max_norm(box.min), max_norm(box.max));
     std::size_t counts[3] = {};
     bool sorted = true;
     Kind last = kTriangleKind;

@@ -37,6 +37,8 @@ class FastScene {
     const Scene& scene() const { return scene_; }
     const Primitives& primitives() const { return primitives_; }
     const LocalFrame& frame() const { return frame_; }
+    /// Of all boxes of primitives; world space.
+    double largest_coordinate() const { return largest_coordinate_; }
     const CompactOctree& octree() const { return octree_; }
     /// Another one; `overlaps` of the options is filled in.
     CompactOctree octree(CompactBuildOptions options) const;
@@ -52,6 +54,7 @@ class FastScene {
     const Scene& scene_;
     const Primitives& primitives_;
     LocalFrame frame_;
+    double largest_coordinate_ = 0;
     Slot triangle_end_ = 0;
     Slot sphere_end_ = 0;
     Slot slot_end_ = 0;

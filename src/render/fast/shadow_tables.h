@@ -7,6 +7,7 @@
 #include "fast_scene.h"
 #include "nuvo/render/fast.h"
 #include "nuvo/scene/light.h"
+#include "triangle_chunk.h"
 
 // What a triangle hides from a light is a cone cut off by the triangle: the points on the inner
 // side of the three planes through the light and an edge, and beyond the triangle's own (shadow
@@ -53,7 +54,11 @@ struct ShadowTable {
 /// What the shadow stage needs of scene and lights, shared by all threads.
 class ShadowTables {
   public:
-    ShadowTables(const FastScene& scene, InstructionSet isa, int threads = 1);
+    ShadowTables(const FastScene& scene, InstructionSet isa, int threads = 1,
+                 TableFilling triangles = TableFilling::kNow);
+
+    /// Makes the planes of these triangles for all lights; by several threads at a time.
+    void take(const TriangleChunk& chunk);
 
     const FastScene& scene() const { return scene_; }
     /// Of light i; empty where it casts no shadow.
@@ -79,17 +84,18 @@ class ShadowTables {
     std::size_t memory_bytes() const;
 
   private:
-    void add_planes(const Light& light, const ShadowTable& table, InstructionSet isa, int threads);
-    void add_rounds();
-    void add_sides(ShadowTable& table) const;
+    void add_rounds(int threads);
+    void add_sides(ShadowTable& table, int threads) const;
+    LightSide side(const LightPoint& light, const RoundShape& shape) const;
 
     const FastScene& scene_;
+    InstructionSet isa_;
     double reach_;  // largest |coordinate| of the scene's box in the local frame
     double touch_;  // bounds SurfacePoint::error, in the local frame
     float leaf_width_;
     float plane_error_;
     float round_error_;
-    std::vector<RoundShape> rounds_;
+    BigVector<RoundShape> rounds_;
     std::vector<ShadowTable> tables_;
     BigVector<ShadowPlanes> planes_;
 };
