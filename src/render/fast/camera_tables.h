@@ -1,6 +1,6 @@
 #pragma once
 
-#include "big_vector.h"
+#include "nuvo/math/big_vector.h"
 #include "fast_scene.h"
 #include "nuvo/render/fast.h"
 #include "tile.h"

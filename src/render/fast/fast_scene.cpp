@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "big_vector.h"
+#include "nuvo/math/big_vector.h"
 #include "nuvo/math/parallel.h"
 #include "nuvo/octree/compact_build.h"
 #include "octant_tests.h"
@@ -22,6 +22,30 @@ Kind kind_of(const Object& object) {
     if (std::holds_alternative<TriangleMesh>(object.shape)) return kTriangleKind;
     return std::holds_alternative<Sphere>(object.shape) ? kSphereKind : kEllipsoidKind;
 }
+
+// How many primitives of a kind there are, and where.
+struct Survey {
+    Survey(const Scene& scene, const Primitives& primitives) {
+        Kind last = kTriangleKind;
+        const std::size_t end = primitives.sources.size();
+        for (std::size_t i = 0; i < end;) {
+            const std::uint32_t object = primitives.sources[i].object;
+            const Kind kind = kind_of(scene.objects[object]);
+            sorted &= kind >= last;
+            last = kind;
+            const std::size_t first = i;
+            Bounds3 box = boxes[kind];
+            for (; i < end && primitives.sources[i].object == object; ++i)
+                box = box.extended(primitives.item_boxes[i]);
+            boxes[kind] = box;
+            counts[kind] += i - first;
+        }
+    }
+
+    std::size_t counts[3] = {};
+    Bounds3 boxes[3];
+    bool sorted = true;  // by kind
+};
 
 LocalFrame frame_of(const Bounds3& box) {
     if (box.empty()) return {};
@@ -141,23 +165,16 @@ OctantTest octant_test(const LocalItems& items) {
 
 FastScene::FastScene(const Scene& scene, const Primitives& primitives, OctreeType type, int threads)
     : scene_(scene), primitives_(primitives) {
-    Bounds3 box;
-    for (const Bounds3& b : primitives.item_boxes) box = box.extended(b);
+    const Survey survey(scene, primitives);
+    Bounds3 box = survey.boxes[kTriangleKind];
+    triangle_box_ = box;
+    box = box.extended(survey.boxes[kSphereKind]).extended(survey.boxes[kEllipsoidKind]);
     frame_ = frame_of(box);
     if (!box.empty()) largest_coordinate_ = std::max(max_norm(box.min), max_norm(box.max));
-    std::size_t counts[3] = {};
-    bool sorted = true;
-    Kind last = kTriangleKind;
-    for (const PrimitiveSource& source : primitives.sources) {
-        const Kind kind = kind_of(scene.objects[source.object]);
-        sorted &= kind >= last;
-        last = kind;
-        ++counts[kind];
-    }
-    triangle_end_ = static_cast<Slot>(counts[0]);
-    sphere_end_ = static_cast<Slot>(counts[0] + counts[1]);
-    slot_end_ = static_cast<Slot>(counts[0] + counts[1] + counts[2]);
-    if (!sorted) {
+    triangle_end_ = static_cast<Slot>(survey.counts[kTriangleKind]);
+    sphere_end_ = triangle_end_ + static_cast<Slot>(survey.counts[kSphereKind]);
+    slot_end_ = sphere_end_ + static_cast<Slot>(survey.counts[kEllipsoidKind]);
+    if (!survey.sorted) {
         Slot next[3] = {0, triangle_end_, sphere_end_};
         ids_.resize(slot_end_);
         for (PrimitiveId id = 0; id < slot_end_; ++id)

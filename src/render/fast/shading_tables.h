@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "big_vector.h"
+#include "nuvo/math/big_vector.h"
 #include "camera_tables.h"
 #include "fast_scene.h"
 #include "nuvo/math/error_bounds.h"

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "big_vector.h"
+#include "nuvo/math/big_vector.h"
 #include "fast_scene.h"
 #include "nuvo/render/fast.h"
 #include "nuvo/scene/light.h"
