@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "dispatch.h"
+#include "local_triangles.h"
 #include "nuvo/math/big_vector.h"
 #include "nuvo/math/parallel.h"
 #include "nuvo/octree/compact_build.h"
@@ -94,36 +96,18 @@ class LocalItemsMaker {
     }
 
     LocalItems make(int threads) && {
-        constexpr Slot kChunk = 4096;
-        const Slot end = fast_.slot_end();
-        for_each_index(threads, (end + kChunk - 1) / kChunk, [&](std::size_t i, int) {
-            const Slot first = static_cast<Slot>(i) * kChunk;
-            const Slot last = std::min(end, first + kChunk);
-            put_triangles(first, std::min(last, fast_.triangle_end()));
-            for (Slot slot = std::max(first, fast_.triangle_end()); slot < last; ++slot)
-                put_round(slot);
+        const InstructionSet isa = resolved(InstructionSet::kBest);
+        const LocalTrianglesJob job{frame_, items_.triangles.data(), items_.boxes.data()};
+        for_each_chunk(fast_, threads,
+                       [&](const TriangleChunk& chunk) { make_local_triangles(job, chunk, isa); });
+        const Slot first = fast_.triangle_end();
+        for_each_part(threads, fast_.slot_end() - first, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) put_round(first + static_cast<Slot>(i));
         });
         return std::move(items_);
     }
 
   private:
-    void put_triangles(Slot slot, Slot last) {
-        while (slot < last) {
-            const std::uint32_t object = fast_.source(slot).object;
-            const auto& mesh = std::get<TriangleMesh>(fast_.scene().objects[object].shape);
-            for (; slot < last && fast_.source(slot).object == object; ++slot) {
-                const IndexTriple& corners = mesh.triangles[fast_.source(slot).triangle];
-                Bounds3T<float> box;
-                for (std::size_t i = 0; i < 3; ++i) {
-                    const Vec3<float> p(frame_.local(mesh.positions[corners[i]]));
-                    items_.triangles[slot].corner[i] = p;
-                    box = box.extended(p);
-                }
-                items_.boxes[slot] = widened(box);
-            }
-        }
-    }
-
     void put_round(Slot slot) {
         items_.boxes[slot] = local_box(frame_, fast_.primitives().item_boxes[fast_.id(slot)]);
         if (slot >= fast_.sphere_end()) return;

@@ -57,6 +57,15 @@ struct Cleared {
         Ints kept(0);
         for (int o = 0; o < 8; ++o)
             kept = kept + select(mask_for<std::int32_t>(octant[o]), Ints(0), Ints(1 << o));
+        if (count == 16) {
+            for (std::size_t i = 0; i < Ints::Shape::kParts; ++i) {
+                std::uint8_t* const at = masks + i * Ints::Shape::kPart;
+                const hn::FixedTag<std::uint8_t, Ints::Shape::kPart> bytes;
+                hn::StoreU(hn::And(hn::LoadU(bytes, at), hn::DemoteTo(bytes, kept.part[i])), bytes,
+                           at);
+            }
+            return;
+        }
         std::int32_t lanes[16];
         kept.store(lanes);
         for (std::size_t i = 0; i < count; ++i)
@@ -67,6 +76,10 @@ struct Cleared {
 // 16 of the items; the last one over again where there are fewer.
 HWY_INLINE Ints load_items(std::span<const std::uint32_t> items, std::size_t begin,
                            std::uint32_t first, std::int32_t stride) {
+    if (items.size() - begin >= 16) {
+        const auto* const at = reinterpret_cast<const std::int32_t*>(items.data() + begin);
+        return (Ints::load(at) - Ints(static_cast<std::int32_t>(first))) * Ints(stride);
+    }
     std::int32_t index[16];
     const std::size_t last = items.size() - 1;
     for (std::size_t i = 0; i < 16; ++i)
