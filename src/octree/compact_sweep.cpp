@@ -18,7 +18,7 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 // Of more items a sample of at least this size decides.
-constexpr std::size_t kSample = 4096;
+constexpr std::size_t kSample = 1024;
 // How far into a gap the plane moves: 8 units in the last place of the largest local coordinates,
 // or half the gap.
 constexpr float kIntoGap = 0x1p-20F;
@@ -121,8 +121,8 @@ Vec3<float> planes_of_bins(const Bounds3T<float>& voxel, ItemSpan items, BoxSpan
 
 Vec3<float> sweep_planes(const Bounds3T<float>& voxel, ItemSpan items, BoxSpan boxes) {
     // Bins cost time of their own; for few items fewer find planes as good.
-    if (items.size() < 20) return planes_of_bins<8>(voxel, items, boxes);
-    if (items.size() < 64) return planes_of_bins<16>(voxel, items, boxes);
+    if (items.size() < 64) return planes_of_bins<8>(voxel, items, boxes);
+    if (items.size() < 256) return planes_of_bins<16>(voxel, items, boxes);
     return planes_of_bins<32>(voxel, items, boxes);
 }
 

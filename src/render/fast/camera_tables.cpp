@@ -5,7 +5,6 @@
 
 #include "camera_triangles.h"
 #include "nuvo/math/error_bounds.h"
-#include "nuvo/math/parallel.h"
 
 namespace nuvo {
 namespace {
@@ -47,7 +46,7 @@ CameraTables::CameraTables(const FastScene& scene, const CameraRays& camera, Ins
                            int threads, TableFilling filling)
     : scene_(scene), camera_(camera), isa_(isa) {
     triangles.resize(scene.triangle_end());
-    make_spheres(threads);
+    spheres.resize(scene.slot_end() - scene.triangle_end());
     if (filling == TableFilling::kNow) fill_tables(scene, threads, *this);
 }
 
@@ -57,31 +56,26 @@ void CameraTables::take(const TriangleChunk& chunk) {
         isa_);
 }
 
-void CameraTables::make_spheres(int threads) {
+void CameraTables::take_rounds(Slot first, Slot last) {
     const Scene& scene = scene_.scene();
     const Point3 eye = scene.camera.position;
     const double scale = scene_.frame().scale;
     const double direction = CameraExtent(camera_).direction;
-    const Slot first = scene_.triangle_end();
-    spheres.resize(scene_.slot_end() - first);
-    for_each_part(threads, spheres.size(), [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const Object& object =
-                scene.objects[scene_.source(first + static_cast<Slot>(i)).object];
-            const Shape& shape = object.shape;
-            CameraSphere& out = spheres[i];
-            if (const auto* sphere = std::get_if<Sphere>(&shape)) {
-                out = make_sphere(eye, scale, sphere->center, sphere->radius, direction);
-            } else {
-                const Bounds3 box = bounds(shape);
-                const double radius = 0.5 * length(box.widths()) * (1 + gamma(64));
-                out = make_sphere(eye, scale, box.center(), radius, direction);
-                out.exactly = true;
-            }
-            out.material = object.material;
-            out.solid = object.solid;
+    for (Slot slot = first; slot < last; ++slot) {
+        const Object& object = scene.objects[scene_.source(slot).object];
+        const Shape& shape = object.shape;
+        CameraSphere& out = spheres[slot - scene_.triangle_end()];
+        if (const auto* sphere = std::get_if<Sphere>(&shape)) {
+            out = make_sphere(eye, scale, sphere->center, sphere->radius, direction);
+        } else {
+            const Bounds3 box = bounds(shape);
+            const double radius = 0.5 * length(box.widths()) * (1 + gamma(64));
+            out = make_sphere(eye, scale, box.center(), radius, direction);
+            out.exactly = true;
         }
-    });
+        out.material = object.material;
+        out.solid = object.solid;
+    }
 }
 
 }  // namespace nuvo

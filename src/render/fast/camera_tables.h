@@ -1,7 +1,7 @@
 #pragma once
 
-#include "nuvo/math/big_vector.h"
 #include "fast_scene.h"
+#include "nuvo/math/big_vector.h"
 #include "nuvo/render/fast.h"
 #include "tile.h"
 #include "triangle_chunk.h"
@@ -50,8 +50,10 @@ class CameraTables {
     CameraTables(const FastScene& scene, const CameraRays& camera, InstructionSet isa,
                  int threads = 1, TableFilling triangles = TableFilling::kNow);
 
-    /// Fills the records of these triangles; by several threads at a time.
+    /// For fill_tables(); by several threads at a time.
     void take(const TriangleChunk& chunk);
+    void take_rounds(Slot first, Slot last);
+    void finish() {}
 
     std::size_t memory_bytes() const {
         return triangles.size() * sizeof(CameraTriangle) + spheres.size() * sizeof(CameraSphere);
@@ -61,8 +63,6 @@ class CameraTables {
     BigVector<CameraSphere> spheres;      ///< by slot - triangle_end()
 
   private:
-    void make_spheres(int threads);
-
     const FastScene& scene_;
     const CameraRays& camera_;
     InstructionSet isa_;

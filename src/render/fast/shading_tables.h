@@ -5,9 +5,9 @@
 #include <memory>
 #include <vector>
 
-#include "nuvo/math/big_vector.h"
 #include "camera_tables.h"
 #include "fast_scene.h"
+#include "nuvo/math/big_vector.h"
 #include "nuvo/math/error_bounds.h"
 #include "shading_rays.h"
 #include "tile.h"
@@ -129,8 +129,10 @@ struct ShadingTables {
                   const BigVector<CameraSphere>& spheres, InstructionSet isa,
                   TableFilling triangles = TableFilling::kNow);
 
-    /// Fills in the numbers of these triangles; by several threads at a time.
+    /// For fill_tables(); by several threads at a time.
     void take(const TriangleChunk& chunk);
+    void take_rounds(Slot, Slot) {}
+    void finish() {}
 
     std::size_t memory_bytes() const;
 

@@ -1,12 +1,10 @@
 #include "shadow_tables.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 
 #include "nuvo/geometry/predicates.h"
 #include "nuvo/math/error_bounds.h"
-#include "nuvo/math/parallel.h"
 #include "shadow_planes.h"
 
 namespace nuvo {
@@ -76,7 +74,7 @@ ShadowTables::ShadowTables(const FastScene& scene, InstructionSet isa, int threa
         rounded_up(kRoundRoundings * kFloatRoundoff * reach_ + kTouch * touch_ + kFloatUnderflow);
     const auto nodes = static_cast<double>(scene.octree().nodes.size());
     leaf_width_ = static_cast<float>(2 * reach_ / std::cbrt(nodes + 1));
-    add_rounds(threads);
+    rounds_.resize(scene.slot_end() - scene.triangle_end());
     const std::vector<Light>& lights = scene.scene().lights;
     const auto casts = [](const Light& light) { return light.casts_shadow; };
     planes_.resize(static_cast<std::size_t>(std::count_if(lights.begin(), lights.end(), casts)) *
@@ -87,7 +85,7 @@ ShadowTables::ShadowTables(const FastScene& scene, InstructionSet isa, int threa
         if (!light.casts_shadow) continue;
         table.first_plane = made;
         made += scene.triangle_end();
-        add_sides(table, threads);
+        if (!outside_of_all(table.light)) table.round_sides.resize(rounds_.size());
     }
     if (filling == TableFilling::kNow) fill_tables(scene, threads, *this);
 }
@@ -105,28 +103,55 @@ void ShadowTables::take(const TriangleChunk& chunk) {
     }
 }
 
-void ShadowTables::add_rounds(int threads) {
+void ShadowTables::take_rounds(Slot first, Slot last) {
+    const std::size_t begin = first - scene_.triangle_end();
+    const std::size_t end = last - scene_.triangle_end();
+    for (Slot slot = first; slot < last; ++slot)
+        rounds_[slot - scene_.triangle_end()] =
+            round_shape(scene_.scene().objects[scene_.source(slot).object].shape);
+    for (ShadowTable& table : tables_) {
+        if (table.round_sides.empty()) continue;
+        for (std::size_t i = begin; i < end; ++i)
+            table.round_sides[i] =
+                table.light.finite ? side(table.light, rounds_[i]) : LightSide::kUnknown;
+    }
+}
+
+void ShadowTables::finish() {
+    for (ShadowTable& table : tables_) {
+        const auto inside = std::find_if(table.round_sides.begin(), table.round_sides.end(),
+                                         [](LightSide s) { return s != LightSide::kOutside; });
+        if (inside == table.round_sides.end()) table.round_sides.clear();
+    }
+}
+
+RoundShape ShadowTables::round_shape(const Shape& shape) const {
     const LocalFrame& frame = scene_.frame();
-    const Slot first = scene_.triangle_end();
-    rounds_.resize(scene_.slot_end() - first);
-    for_each_part(threads, rounds_.size(), [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const PrimitiveSource& source = scene_.source(first + static_cast<Slot>(i));
-            const Shape& shape = scene_.scene().objects[source.object].shape;
-            Point3 center;
-            double radius = 0;
-            if (const auto* sphere = std::get_if<Sphere>(&shape)) {
-                center = sphere->center;
-                radius = sphere->radius;
-            } else {
-                const auto& ellipsoid = std::get<Ellipsoid>(shape);
-                center = ellipsoid.center;
-                radius = radius_around(ellipsoid, touch_ / frame.scale);
-            }
-            const Vec3<float> local(frame.local(center));
-            rounds_[i] = {{local.x, local.y, local.z}, static_cast<float>(radius * frame.scale)};
-        }
-    });
+    Point3 center;
+    double radius = 0;
+    if (const auto* sphere = std::get_if<Sphere>(&shape)) {
+        center = sphere->center;
+        radius = sphere->radius;
+    } else {
+        const auto& ellipsoid = std::get<Ellipsoid>(shape);
+        center = ellipsoid.center;
+        radius = radius_around(ellipsoid, touch_ / frame.scale);
+    }
+    const Vec3<float> local(frame.local(center));
+    return {{local.x, local.y, local.z}, static_cast<float>(radius * frame.scale)};
+}
+
+bool ShadowTables::outside_of_all(const LightPoint& light) const {
+    if (!light.finite) return false;
+    if (light.weight == 0) return true;
+    if (scene_.sphere_end() != scene_.slot_end()) return false;  // what is around them is not in it
+    const Bounds3T<float>& box = scene_.octree().bounds;
+    const double margin = 2 * round_error_ + 8 * kFloatRoundoff * reach_;  // as in side()
+    for (int axis = 0; axis < 3; ++axis)
+        if (light.toward[axis] > (box.max[axis] + margin) * light.weight ||
+            light.toward[axis] < (box.min[axis] - margin) * light.weight)
+            return true;
+    return false;
 }
 
 LightSide ShadowTables::side(const LightPoint& light, const RoundShape& shape) const {
@@ -136,22 +161,6 @@ LightSide ShadowTables::side(const LightPoint& light, const RoundShape& shape) c
     const double margin = 2 * round_error_ * light.weight + 4 * kFloatRoundoff * radius;
     if (distance > radius + margin) return LightSide::kOutside;
     return distance < radius - margin ? LightSide::kInside : LightSide::kUnknown;
-}
-
-void ShadowTables::add_sides(ShadowTable& table, int threads) const {
-    const LightPoint& light = table.light;
-    if (light.weight == 0 && light.finite) return;
-    std::atomic<bool> all_outside = light.finite;
-    if (light.finite)
-        for_each_part(threads, rounds_.size(), [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end && all_outside; ++i)
-                if (side(light, rounds_[i]) != LightSide::kOutside) all_outside = false;
-        });
-    if (all_outside) return;
-    table.round_sides.resize(rounds_.size(), LightSide::kUnknown);
-    if (light.finite)
-        std::transform(rounds_.begin(), rounds_.end(), table.round_sides.begin(),
-                       [&](const RoundShape& shape) { return side(light, shape); });
 }
 
 std::size_t ShadowTables::memory_bytes() const {

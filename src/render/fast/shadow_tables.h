@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "nuvo/math/big_vector.h"
 #include "fast_scene.h"
+#include "nuvo/math/big_vector.h"
 #include "nuvo/render/fast.h"
 #include "nuvo/scene/light.h"
 #include "triangle_chunk.h"
@@ -47,8 +47,8 @@ struct ShadowTable {
     explicit ShadowTable(const LightPoint& from) : light(from) {}
 
     LightPoint light;
-    std::size_t first_plane = 0;         ///< where its planes begin among those of all lights
-    std::vector<LightSide> round_sides;  ///< of slots from triangle_end on; empty: all outside
+    std::size_t first_plane = 0;       ///< where its planes begin among those of all lights
+    BigVector<LightSide> round_sides;  ///< of slots from triangle_end on; empty: all outside
 };
 
 /// What the shadow stage needs of scene and lights, shared by all threads.
@@ -57,8 +57,10 @@ class ShadowTables {
     ShadowTables(const FastScene& scene, InstructionSet isa, int threads = 1,
                  TableFilling triangles = TableFilling::kNow);
 
-    /// Makes the planes of these triangles for all lights; by several threads at a time.
+    /// For fill_tables(); by several threads at a time.
     void take(const TriangleChunk& chunk);
+    void take_rounds(Slot first, Slot last);
+    void finish();
 
     const FastScene& scene() const { return scene_; }
     /// Of light i; empty where it casts no shadow.
@@ -84,8 +86,9 @@ class ShadowTables {
     std::size_t memory_bytes() const;
 
   private:
-    void add_rounds(int threads);
-    void add_sides(ShadowTable& table, int threads) const;
+    /// Whether the light is a direction or stands where the scene surely does not reach.
+    bool outside_of_all(const LightPoint& light) const;
+    RoundShape round_shape(const Shape& shape) const;
     LightSide side(const LightPoint& light, const RoundShape& shape) const;
 
     const FastScene& scene_;
