@@ -56,4 +56,11 @@ void for_each_index(int threads, std::size_t count,
     loop.rethrow();
 }
 
+void for_each_part(int threads, std::size_t count,
+                   const std::function<void(std::size_t, std::size_t)>& work) {
+    constexpr std::size_t kPart = 8192;
+    for_each_index(threads, (count + kPart - 1) / kPart,
+                   [&](std::size_t i, int) { work(i * kPart, std::min(count, (i + 1) * kPart)); });
+}
+
 }  // namespace nuvo

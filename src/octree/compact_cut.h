@@ -13,7 +13,7 @@ using ItemSpan = std::span<const std::uint32_t>;
 /// From here on it is worth while to try harder.
 inline constexpr std::size_t kManyItems = 32;
 /// Boxes lie anywhere in memory: they are asked for by this many items before they are needed.
-inline constexpr std::size_t kPrefetchAhead = 12;
+inline constexpr std::size_t kPrefetchAhead = 24;
 using BoxSpan = std::span<const Bounds3T<float>>;
 
 /// The box of one octant of a cut voxel.

@@ -30,25 +30,39 @@ class Planner {
         return split && split->occupied() != 0 ? split : std::nullopt;
     }
 
-    // The items of one octant of the node that was split last.
-    std::vector<std::uint32_t> items_of(const PlanNode& node, unsigned octant) const {
-        std::vector<std::uint32_t> items(node.split->counts[octant] + 1);
-        std::size_t next = 0;
-        for (std::size_t i = 0; i < node.items.size(); ++i) {
-            items[next] = node.items[i];
-            next += masks_.kept[i] >> octant & 1U;
+    // The items of the octants of the node that was split last; each chunk's in ranges of its own.
+    std::array<BigVector<std::uint32_t>, 8> distribute(const PlanNode& node) const {
+        std::array<BigVector<std::uint32_t>, 8> octants;
+        for (unsigned o = 0; o < 8; ++o) octants[o].resize(node.split->counts[o]);
+        const std::size_t chunks = chunks_of(node.items.size());
+        std::vector<std::array<std::size_t, 8>> first(chunks);
+        for (std::size_t i = 1; i < chunks; ++i) {
+            const auto [begin, end] = chunk(i - 1, node.items.size());
+            first[i] = count_octants(masks_.kept.data() + begin, end - begin);
+            for (unsigned o = 0; o < 8; ++o) first[i][o] += first[i - 1][o];
         }
-        items.pop_back();
-        return items;
+        for_each_index(options_.threads, chunks, [&](std::size_t i, int) {
+            std::array<std::uint32_t*, 8> next;
+            for (unsigned o = 0; o < 8; ++o) next[o] = octants[o].data() + first[i][o];
+            const auto [begin, end] = chunk(i, node.items.size());
+            for (std::size_t k = begin; k < end; ++k)
+                for (unsigned mask = masks_.kept[k]; mask != 0; mask &= mask - 1)
+                    *next[static_cast<unsigned>(std::countr_zero(mask))]++ = node.items[k];
+        });
+        return octants;
     }
 
   private:
+    static std::size_t chunks_of(std::size_t items) { return (items + kChunk - 1) / kChunk; }
+    static std::pair<std::size_t, std::size_t> chunk(std::size_t i, std::size_t items) {
+        return {i * kChunk, std::min((i + 1) * kChunk, items)};
+    }
     std::array<std::size_t, 8> mark(const CutVoxel& voxel, ItemSpan items, std::uint8_t* masks) {
-        const std::size_t chunks = (items.size() + kChunk - 1) / kChunk;
+        const std::size_t chunks = chunks_of(items.size());
         std::vector<std::array<std::size_t, 8>> counts(chunks);
         for_each_index(options_.threads, chunks, [&](std::size_t i, int thread) {
-            const std::size_t begin = i * kChunk;
-            const ItemSpan part = items.subspan(begin, std::min(kChunk, items.size() - begin));
+            const auto [begin, end] = chunk(i, items.size());
+            const ItemSpan part = items.subspan(begin, end - begin);
             counts[i] = markers_[static_cast<std::size_t>(thread)].mark(voxel, part, masks + begin);
         });
         std::array<std::size_t, 8> sums{};
@@ -80,16 +94,12 @@ std::vector<PlanNode> make_plan(const Place& root, BoxSpan boxes,
         if (!plan[i].split) continue;
         const Split& split = *plan[i].split;
         plan[i].first_child = plan.size();
+        auto octants = planner.distribute(plan[i]);
         std::vector<PlanNode> children;
         for (unsigned o = 0; o < 8; ++o)
             if (split.counts[o] != 0)
-                children.push_back({plan[i].place.octant(split, o), {}, {}, 0, {}, 0});
-        std::vector<unsigned> octants;
-        for (unsigned o = 0; o < 8; ++o)
-            if (split.counts[o] != 0) octants.push_back(o);
-        for_each_index(options.threads, children.size(), [&](std::size_t c, int) {
-            children[c].items = planner.items_of(plan[i], octants[c]);
-        });
+                children.push_back(
+                    {plan[i].place.octant(split, o), std::move(octants[o]), {}, 0, {}, 0});
         std::move(children.begin(), children.end(), std::back_inserter(plan));
     }
     return plan;
@@ -117,7 +127,8 @@ void carry_out(std::vector<PlanNode>& plan, BoxSpan boxes, const CompactBuildOpt
         if (node.cost < as_leaf) continue;
         node.split.reset();
         const auto count = static_cast<std::uint32_t>(node.items.size());
-        node.subtree = {CompactNode::leaf(0, count), as_leaf, {}, std::move(node.items)};
+        node.subtree = {
+            CompactNode::leaf(0, count), as_leaf, {}, {node.items.begin(), node.items.end()}};
         node.cost = as_leaf;
     }
 }

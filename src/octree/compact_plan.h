@@ -5,13 +5,14 @@
 #include <vector>
 
 #include "compact_subtree.h"
+#include "nuvo/math/big_vector.h"
 
 namespace nuvo {
 
 /// A node near the root: cut further, or the root of a subtree that one thread builds.
 struct PlanNode {
     Place place;
-    std::vector<std::uint32_t> items;
+    BigVector<std::uint32_t> items;
     std::optional<Split> split;   ///< none: the root of `subtree`
     std::size_t first_child = 0;  ///< the children stand side by side
     Subtree subtree;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "box_lanes.h"
+
 // One cut: the octants that an item's box touches follow from six comparisons with the planes; only
 // items in more than one octant are tested any further, all of a voxel together.
 
@@ -48,11 +50,7 @@ unsigned existing_octants(const CutVoxel& voxel) {
     return mask;
 }
 
-unsigned sides(const Bounds3T<float>& box, const Vec3<float>& cut) {
-    const auto bit = [](bool on, unsigned place) { return static_cast<unsigned>(on) << place; };
-    return bit(box.min.x <= cut.x, 0) | bit(box.min.y <= cut.y, 1) | bit(box.min.z <= cut.z, 2) |
-           bit(box.max.x >= cut.x, 3) | bit(box.max.y >= cut.y, 4) | bit(box.max.z >= cut.z, 5);
-}
+}  // namespace
 
 std::array<std::size_t, 8> count_octants(const std::uint8_t* masks, std::size_t count) {
     constexpr std::size_t kByteRange = 255;
@@ -65,8 +63,6 @@ std::array<std::size_t, 8> count_octants(const std::uint8_t* masks, std::size_t 
     }
     return counts;
 }
-
-}  // namespace
 
 double Prices::after(const Split& split) const {
     double cost = interior(split.voxel.bounds);
@@ -94,21 +90,27 @@ std::array<std::size_t, 8> OctantMarker::mark(const CutVoxel& voxel, ItemSpan it
 std::size_t OctantMarker::mark_by_boxes(const CutVoxel& voxel, ItemSpan items,
                                         std::uint8_t* masks) {
     const unsigned existing = existing_octants(voxel);
+    const SidesOfPlanes sides(voxel.cut);
     if (doubtful_.size() < items.size()) {
         doubtful_.resize(items.size());
         places_.resize(items.size());
         candidates_.resize(items.size());
     }
+    // Writing bytes may change anything as far as the compiler knows, but not these.
+    const Bounds3T<float>* const boxes = boxes_.data();
+    std::uint32_t* const doubtful_items = doubtful_.data();
+    std::uint32_t* const places = places_.data();
+    std::uint8_t* const candidates = candidates_.data();
     std::size_t doubtful = 0;
     for (std::size_t i = 0; i < items.size(); ++i) {
-        if (i + kPrefetchAhead < items.size())
-            __builtin_prefetch(&boxes_[items[i + kPrefetchAhead]]);
-        const unsigned mask = kOctantsOfSides[sides(boxes_[items[i]], voxel.cut)] & existing;
+        __builtin_prefetch(boxes + items[std::min(i + kPrefetchAhead, items.size() - 1)]);
+        const std::uint32_t item = items[i];
+        const unsigned mask = kOctantsOfSides[sides.of(boxes[item])] & existing;
         masks[i] = static_cast<std::uint8_t>(mask);
         // Written always, kept where the count moves on: no branch to be guessed wrong.
-        doubtful_[doubtful] = items[i];
-        places_[doubtful] = static_cast<std::uint32_t>(i);
-        candidates_[doubtful] = static_cast<std::uint8_t>(mask);
+        doubtful_items[doubtful] = item;
+        places[doubtful] = static_cast<std::uint32_t>(i);
+        candidates[doubtful] = static_cast<std::uint8_t>(mask);
         doubtful += (mask & (mask - 1)) != 0 ? 1 : 0;
     }
     return doubtful;

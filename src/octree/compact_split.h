@@ -79,6 +79,9 @@ class OctantMarker {
     std::vector<std::uint8_t> candidates_;  // and their octants
 };
 
+/// How many masks have bit o.
+std::array<std::size_t, 8> count_octants(const std::uint8_t* masks, std::size_t count);
+
 /// Writes the items of octant o in order to out[first[o]] and on, with one place of scratch behind.
 void distribute(ItemSpan items, const std::uint8_t* masks, const std::array<std::size_t, 8>& first,
                 std::uint32_t* out);

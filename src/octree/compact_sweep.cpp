@@ -1,7 +1,8 @@
 #include "compact_sweep.h"
 
-#include <cstring>
 #include <limits>
+
+#include "box_lanes.h"
 
 // The sweep of each axis: the cost of a plane at x is LSA(x) L(x) + RSA(x) R(x), with the areas of
 // the two sides and the numbers of items that begin below and end above the plane [eq. 11, items on
@@ -10,37 +11,17 @@
 // either end of the gap between the last item that ends below it and the first that begins above,
 // and a little into the gap, for an item that touched the plane would lie on both sides.
 //
-// The three axes are worked on at once, in a vector of four.
+// The three axes are worked on at once.
 
 namespace nuvo {
 namespace {
 
-using Four = float __attribute__((vector_size(16)));
-using FourInts = std::int32_t __attribute__((vector_size(16)));
-
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 // Of more items a sample of at least this size decides.
-constexpr std::size_t kSample = 4096;
+constexpr std::size_t kSample = 1024;
 // How far into a gap the plane moves: 8 units in the last place of the largest local coordinates,
 // or half the gap.
 constexpr float kIntoGap = 0x1p-20F;
-
-Four splat(float value) { return Four{value, value, value, value}; }
-Four four(const Vec3<float>& v) { return Four{v.x, v.y, v.z, 0}; }
-Four least(Four a, Four b) { return a < b ? a : b; }
-Four most(Four a, Four b) { return a > b ? a : b; }
-
-// min x, y, z and then max x; min z and then max x, y, z.
-struct BoxInFours {
-    explicit BoxInFours(const Bounds3T<float>& box) {
-        static_assert(sizeof(Bounds3T<float>) == 6 * sizeof(float));
-        std::memcpy(&low, &box.min.x, sizeof(Four));
-        std::memcpy(&high, &box.min.z, sizeof(Four));
-        high = __builtin_shufflevector(high, high, 1, 2, 3, 0);
-    }
-    Four low;
-    Four high;
-};
 
 template <int kBins>
 class Bins {
@@ -140,8 +121,8 @@ Vec3<float> planes_of_bins(const Bounds3T<float>& voxel, ItemSpan items, BoxSpan
 
 Vec3<float> sweep_planes(const Bounds3T<float>& voxel, ItemSpan items, BoxSpan boxes) {
     // Bins cost time of their own; for few items fewer find planes as good.
-    if (items.size() < 20) return planes_of_bins<8>(voxel, items, boxes);
-    if (items.size() < 64) return planes_of_bins<16>(voxel, items, boxes);
+    if (items.size() < 64) return planes_of_bins<8>(voxel, items, boxes);
+    if (items.size() < 256) return planes_of_bins<16>(voxel, items, boxes);
     return planes_of_bins<32>(voxel, items, boxes);
 }
 

@@ -31,7 +31,7 @@ class SceneStore {
 
   private:
     const Scene& scene_;
-    const std::vector<PrimitiveSource>& sources_;
+    const BigVector<PrimitiveSource>& sources_;
 };
 
 /// The primitives' coordinates side by side, one array a kind, found by PrimitiveId. A kind that
@@ -106,7 +106,7 @@ class PrimitiveStore {
         }
     }
 
-    const std::vector<PrimitiveSource>& sources_;
+    const BigVector<PrimitiveSource>& sources_;
     std::vector<std::uint32_t> slots_;
     TriangleList triangles_;
     std::vector<SphereT> spheres_;

@@ -1,25 +1,36 @@
 #include "nuvo/render/primitives.h"
 
-#include <algorithm>
-
 namespace nuvo {
 namespace {
 
-// For `more` elements, at least doubling what there is: so growing stays linear.
-template <typename T>
-void make_room(std::vector<T>& list, std::size_t more) {
-    const std::size_t needed = list.size() + more;
-    if (needed > list.capacity()) list.reserve(std::max(needed, 2 * list.capacity()));
+// Meshes lie anywhere in memory: they are asked for by so many objects before they are needed.
+constexpr std::size_t kPrefetchAhead = 8;
+
+void ask_for(const Shape& shape) {
+    const auto* mesh = std::get_if<TriangleMesh>(&shape);
+    if (!mesh) return;
+    __builtin_prefetch(mesh->triangles.data());
+    __builtin_prefetch(mesh->positions.data());
+    __builtin_prefetch(reinterpret_cast<const char*>(mesh->positions.data()) + 64);
+}
+
+void make_room(std::size_t primitives, std::size_t items, Primitives& out) {
+    out.sources.reserve(primitives);
+    out.item_first.reserve(items + 1);
+    out.item_boxes.reserve(items);
+}
+
+std::size_t triangles_from(const Scene& scene, std::size_t first) {
+    std::size_t count = 0;
+    for (std::size_t i = first; i < scene.objects.size(); ++i)
+        if (const auto* mesh = std::get_if<TriangleMesh>(&scene.objects[i].shape))
+            count += mesh->triangles.size();
+    return count;
 }
 
 void add_mesh(const TriangleMesh& mesh, std::uint32_t object, LeafContent leaves, Primitives& out) {
     const bool whole = leaves == LeafContent::kShapes;
     const std::size_t first = out.sources.size();
-    make_room(out.sources, mesh.triangles.size());
-    if (!whole) {
-        make_room(out.item_first, mesh.triangles.size());
-        make_room(out.item_boxes, mesh.triangles.size());
-    }
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         const Triangle triangle = mesh.triangle(i);
         if (has_zero_area(triangle)) {
@@ -42,12 +53,18 @@ void add_mesh(const TriangleMesh& mesh, std::uint32_t object, LeafContent leaves
 
 Primitives flatten(const Scene& scene, LeafContent leaves) {
     Primitives out;
-    out.sources.reserve(scene.objects.size());
-    out.item_first.reserve(scene.objects.size() + 1);
-    out.item_boxes.reserve(scene.objects.size());
+    make_room(scene.objects.size(), scene.objects.size(), out);
+    bool any_mesh = false;
     for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {
+        if (i + kPrefetchAhead < scene.objects.size())
+            ask_for(scene.objects[i + kPrefetchAhead].shape);
         const Shape& shape = scene.objects[i].shape;
         if (const auto* mesh = std::get_if<TriangleMesh>(&shape)) {
+            if (!any_mesh) {
+                const std::size_t most = scene.objects.size() + triangles_from(scene, i);
+                make_room(most, leaves == LeafContent::kPrimitives ? most : 0, out);
+                any_mesh = true;
+            }
             add_mesh(*mesh, i, leaves, out);
         } else {
             out.item_first.push_back(static_cast<PrimitiveId>(out.sources.size()));

@@ -23,6 +23,17 @@ TEST(ForEachIndex, MeetsEveryIndexOnce) {
         }
 }
 
+TEST(ForEachPart, PartsFollowEachOtherWithoutGaps) {
+    for (const int threads : {1, 2, 7})
+        for (const std::size_t count : {std::size_t{0}, std::size_t{5}, std::size_t{100'000}}) {
+            std::vector<std::atomic<int>> met(count);
+            for_each_part(threads, count, [&](std::size_t begin, std::size_t end) {
+                for (std::size_t i = begin; i < end; ++i) ++met[i];
+            });
+            for (const auto& times : met) ASSERT_EQ(times, 1);
+        }
+}
+
 TEST(ForEachIndex, EachThreadWorksAloneUnderItsNumber) {
     std::vector<std::atomic<int>> busy(4);
     std::atomic<bool> shared = false;

@@ -12,4 +12,8 @@ namespace nuvo {
 void for_each_index(int threads, std::size_t count,
                     const std::function<void(std::size_t index, int thread)>& work);
 
+/// Calls work(begin, end) for parts of [0, count), which do not depend on `threads`.
+void for_each_part(int threads, std::size_t count,
+                   const std::function<void(std::size_t begin, std::size_t end)>& work);
+
 }  // namespace nuvo

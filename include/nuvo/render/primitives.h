@@ -1,8 +1,8 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
+#include "nuvo/math/big_vector.h"
 #include "nuvo/math/bounds.h"
 #include "nuvo/render/profile.h"
 #include "nuvo/scene/scene.h"
@@ -28,10 +28,10 @@ struct PrimitiveSource {
 /// The scene flattened for tracing: primitives in document order, and the leaf items (single
 /// primitives or whole shapes) that an octree distributes.
 struct Primitives {
-    std::vector<PrimitiveSource> sources;  ///< one per primitive
-    std::vector<PrimitiveId>
-        item_first;  ///< item i holds primitives [item_first[i], item_first[i + 1])
-    std::vector<Bounds3> item_boxes;      ///< one per item
+    BigVector<PrimitiveSource> sources;  ///< one per primitive
+    BigVector<PrimitiveId>
+        item_first;                 ///< item i holds primitives [item_first[i], item_first[i + 1])
+    BigVector<Bounds3> item_boxes;  ///< one per item
     std::size_t zero_area_triangles = 0;  ///< left out: they can never be hit
 
     std::size_t item_count() const { return item_boxes.size(); }

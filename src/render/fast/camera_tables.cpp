@@ -10,11 +10,9 @@ namespace nuvo {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr double kFloatRoundoff = 0x1p-24;
 
-float rounded_up(double value) {
-    return static_cast<float>(value * (1 + 2 * kFloatRoundoff) + kTableUnderflow);
-}
+// Of the float stages that use it.
+float bound(double value) { return rounded_up(value + kFloatUnderflow); }
 
 CameraSphere make_sphere(const Point3& eye, double scale, const Point3& center, double radius,
                          double direction) {
@@ -30,13 +28,13 @@ CameraSphere make_sphere(const Point3& eye, double scale, const Point3& center, 
     out.exact_radius = r;
     out.radius = static_cast<float>(r);
     out.inverse_power = static_cast<float>(1 / power);
-    out.power_error = rounded_up(2 * error / std::fabs(power) + 4 * kFloatRoundoff);
+    out.power_error = bound(2 * error / std::fabs(power) + 4 * kFloatRoundoff);
     out.nearest = gap > 0 && power > error
-                      ? rounded_up(1 / (gap * (1 - gamma(32)) - gamma(16) * std::sqrt(ff)))
+                      ? bound(1 / (gap * (1 - gamma(32)) - gamma(16) * std::sqrt(ff)))
                       : kInfinity;
     if (!(out.nearest > 0)) out.nearest = kInfinity;
-    out.distance = rounded_up(std::sqrt(ff));
-    out.cross_error = rounded_up(gamma(32) * max_norm(from) * direction);
+    out.distance = bound(std::sqrt(ff));
+    out.cross_error = bound(gamma(32) * max_norm(from) * direction);
     out.exactly = !(std::fabs(power) > 4 * error && std::isfinite(out.inverse_power) &&
                     std::isnormal(out.radius) && std::isfinite(out.cross_error));
     return out;
@@ -44,27 +42,39 @@ CameraSphere make_sphere(const Point3& eye, double scale, const Point3& center, 
 
 }  // namespace
 
-CameraTables::CameraTables(const FastScene& fast, const CameraRays& camera, InstructionSet isa) {
-    const Scene& scene = fast.scene();
+CameraTables::CameraTables(const FastScene& scene, const CameraRays& camera, InstructionSet isa,
+                           int threads, TableFilling filling)
+    : scene_(scene), camera_(camera), isa_(isa) {
+    triangles.resize(scene.triangle_end());
+    spheres.resize(scene.slot_end() - scene.triangle_end());
+    if (filling == TableFilling::kNow) fill_tables(scene, threads, *this);
+}
+
+void CameraTables::take(const TriangleChunk& chunk) {
+    make_camera_triangles(
+        {camera_, scene_.scene().camera.position, scene_.frame().scale, triangles.data()}, chunk,
+        isa_);
+}
+
+void CameraTables::take_rounds(Slot first, Slot last) {
+    const Scene& scene = scene_.scene();
     const Point3 eye = scene.camera.position;
-    const double scale = fast.frame().scale;
-    triangles.resize(fast.triangle_end());
-    make_camera_triangles(isa, fast, camera, triangles);
-    const double direction = CameraExtent(camera).direction;
-    spheres.reserve(fast.slot_end() - fast.triangle_end());
-    for (Slot slot = fast.triangle_end(); slot < fast.slot_end(); ++slot) {
-        const Object& object = scene.objects[fast.source(slot).object];
+    const double scale = scene_.frame().scale;
+    const double direction = CameraExtent(camera_).direction;
+    for (Slot slot = first; slot < last; ++slot) {
+        const Object& object = scene.objects[scene_.source(slot).object];
         const Shape& shape = object.shape;
+        CameraSphere& out = spheres[slot - scene_.triangle_end()];
         if (const auto* sphere = std::get_if<Sphere>(&shape)) {
-            spheres.push_back(make_sphere(eye, scale, sphere->center, sphere->radius, direction));
+            out = make_sphere(eye, scale, sphere->center, sphere->radius, direction);
         } else {
             const Bounds3 box = bounds(shape);
             const double radius = 0.5 * length(box.widths()) * (1 + gamma(64));
-            spheres.push_back(make_sphere(eye, scale, box.center(), radius, direction));
-            spheres.back().exactly = true;
+            out = make_sphere(eye, scale, box.center(), radius, direction);
+            out.exactly = true;
         }
-        spheres.back().material = object.material;
-        spheres.back().solid = object.solid;
+        out.material = object.material;
+        out.solid = object.solid;
     }
 }
 

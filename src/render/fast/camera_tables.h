@@ -1,8 +1,10 @@
 #pragma once
 
-#include "big_vector.h"
 #include "fast_scene.h"
+#include "nuvo/math/big_vector.h"
+#include "nuvo/render/fast.h"
 #include "tile.h"
+#include "triangle_chunk.h"
 
 // Tables for rays with a common origin. Against one triangle the edge functions of all pixels are
 // affine in the pixel's coordinates (Olano and Greer 1997, "Triangle scan conversion using 2D
@@ -42,8 +44,16 @@ struct alignas(64) CameraSphere {
 static_assert(sizeof(CameraSphere) == 64);
 
 /// Made anew for each picture.
-struct CameraTables {
-    CameraTables(const FastScene& scene, const CameraRays& camera, InstructionSet isa);
+class CameraTables {
+  public:
+    /// Keeps references.
+    CameraTables(const FastScene& scene, const CameraRays& camera, InstructionSet isa,
+                 int threads = 1, TableFilling triangles = TableFilling::kNow);
+
+    /// For fill_tables(); by several threads at a time.
+    void take(const TriangleChunk& chunk);
+    void take_rounds(Slot first, Slot last);
+    void finish() {}
 
     std::size_t memory_bytes() const {
         return triangles.size() * sizeof(CameraTriangle) + spheres.size() * sizeof(CameraSphere);
@@ -51,6 +61,11 @@ struct CameraTables {
 
     BigVector<CameraTriangle> triangles;  ///< by slot
     BigVector<CameraSphere> spheres;      ///< by slot - triangle_end()
+
+  private:
+    const FastScene& scene_;
+    const CameraRays& camera_;
+    InstructionSet isa_;
 };
 
 }  // namespace nuvo

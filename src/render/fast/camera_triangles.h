@@ -3,12 +3,9 @@
 #include <cmath>
 
 #include "camera_tables.h"
+#include "triangle_chunk.h"
 
 namespace nuvo {
-
-/// What products of a table's floats lose below the normal range, a few of them with room for the
-/// picture's size: added to every bound.
-inline constexpr double kTableUnderflow = 0x1p-120;
 
 /// How far pixel coordinates and directions reach.
 struct CameraExtent {
@@ -23,8 +20,15 @@ struct CameraExtent {
     double direction;  ///< bounds the sum of |components| of forward, X right and Y down
 };
 
-/// Fills the table of all triangles.
-void make_camera_triangles(InstructionSet isa, const FastScene& scene, const CameraRays& camera,
-                           BigVector<CameraTriangle>& out);
+struct CameraTrianglesJob {
+    const CameraRays& camera;
+    Point3 eye;           ///< world space
+    double scale;         ///< of the local frame
+    CameraTriangle* out;  ///< of slot 0
+};
+
+/// Makes the records of a chunk.
+void make_camera_triangles(const CameraTrianglesJob& job, const TriangleChunk& chunk,
+                           InstructionSet isa);
 
 }  // namespace nuvo

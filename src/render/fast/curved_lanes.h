@@ -151,7 +151,7 @@ class CurvedLanes {
         constexpr double kCrossError = 0x1p-49;  // 8 roundings of f x d
         constexpr double kDigits = 0x1p28;
         constexpr double kSideError = 0x1p-48;
-        constexpr float kSphereNormalError = 14 * kUnit;
+        constexpr float kSphereNormalError = 14 * kFloatRoundoff;
         const Vector3 from{sphere.from[0], sphere.from[1], sphere.from[2]};
         const Vector3 f = from * (1 / sphere.exact_radius);
         const double power = dot(f, f);
@@ -191,7 +191,7 @@ class CurvedLanes {
         store_normal(normal, known, Floats(kSphereNormalError));
         // P: of centre and sum, and the radius's times the normal's and two more.
         const float error =
-            (kSphereNormalError + 3 * kUnit) * radius + tables_.bounds.curved_point_error;
+            (kSphereNormalError + 3 * kFloatRoundoff) * radius + tables_.bounds.curved_point_error;
         store_point(point, known, error);
     }
 
@@ -222,7 +222,8 @@ class CurvedLanes {
         RayMask known = lanes_;
         if (!solid) {
             const float longest = tables_.rays.longest;
-            known = abs(along) > mul_add(error, Floats(longest), Floats(8 * kUnit * longest));
+            known =
+                abs(along) > mul_add(error, Floats(longest), Floats(8 * kFloatRoundoff * longest));
             for (Floats& n : normal) n = select(along > Floats(0.0F), -n, n);
         }
         store_normal(normal, known, error);
@@ -278,7 +279,8 @@ class CurvedLanes {
         const RayMask known = relative < Floats(kSmallEnough);
         Floats normal[3];
         for (int i = 0; i < 3; ++i) normal[i] = smooth_[i] * inverse;
-        store_normal(normal, known, mul_add(relative, Floats(1.07F), Floats(4.8F * kUnit)));
+        store_normal(normal, known,
+                     mul_add(relative, Floats(1.07F), Floats(4.8F * kFloatRoundoff)));
     }
 
     // Weights V / S and W / S as surface_point() has them. Below 2^-49 of its magnitudes a triple

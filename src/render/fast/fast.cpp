@@ -6,6 +6,7 @@
 #include "dispatch.h"
 #include "exact_kernel.h"
 #include "frame.h"
+#include "nuvo/math/big_vector.h"
 #include "single_ray.h"
 
 namespace nuvo {
@@ -28,13 +29,11 @@ bool is_near(const LocalFrame& frame, const Camera& camera) {
 
 struct FastTracer::State {
     State(const Scene& scene, const Primitives& primitives, const FastOptions& given)
-        : options(with_isa(given)),
-          fast(scene, primitives, options.type, options.threads),
-          triangles(triangle_bounds(scene, primitives)) {}
+        : options(with_isa(given)), fast(scene, primitives, options.type, options.threads) {}
 
+    BlockKeeper keeper;
     FastOptions options;
     FastScene fast;
-    Bounds3 triangles;
     std::size_t table_bytes = 0;
     std::unique_ptr<SingleRays> single;  // made when rays are first asked for
 };
@@ -52,7 +51,7 @@ Image FastTracer::render(Resolution resolution, FastTimes* times) {
         const Octree octree = build_tree(fast.scene(), fast.primitives(), profile);
         return nuvo::render(fast.scene(), fast.primitives(), octree, profile, resolution);
     }
-    Frame frame(fast, state_->triangles, state_->options, resolution);
+    Frame frame(fast, fast.triangle_box(), state_->options, resolution);
     state_->table_bytes = frame.memory_bytes();
     return frame.render(times);
 }
@@ -68,7 +67,7 @@ std::vector<RayAnswer> FastTracer::closest_hits(std::span<const Ray> rays) const
 RayCounts FastTracer::count_rays(Resolution resolution) const {
     const FastScene& fast = state_->fast;
     if (is_near(fast.frame(), fast.scene().camera))
-        return nuvo::count_rays(fast, state_->triangles, state_->options.isa, resolution);
+        return nuvo::count_rays(fast, fast.triangle_box(), state_->options.isa, resolution);
     const Profile profile = exact_profile();
     const Octree octree = build_tree(fast.scene(), fast.primitives(), profile);
     const TraceCounts counts =

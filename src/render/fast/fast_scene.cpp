@@ -4,7 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "big_vector.h"
+#include "dispatch.h"
+#include "local_triangles.h"
+#include "nuvo/math/big_vector.h"
 #include "nuvo/math/parallel.h"
 #include "nuvo/octree/compact_build.h"
 #include "octant_tests.h"
@@ -23,9 +25,31 @@ Kind kind_of(const Object& object) {
     return std::holds_alternative<Sphere>(object.shape) ? kSphereKind : kEllipsoidKind;
 }
 
-LocalFrame frame_of(const Primitives& primitives) {
-    Bounds3 box;
-    for (const Bounds3& b : primitives.item_boxes) box = box.extended(b);
+// How many primitives of a kind there are, and where.
+struct Survey {
+    Survey(const Scene& scene, const Primitives& primitives) {
+        Kind last = kTriangleKind;
+        const std::size_t end = primitives.sources.size();
+        for (std::size_t i = 0; i < end;) {
+            const std::uint32_t object = primitives.sources[i].object;
+            const Kind kind = kind_of(scene.objects[object]);
+            sorted &= kind >= last;
+            last = kind;
+            const std::size_t first = i;
+            Bounds3 box = boxes[kind];
+            for (; i < end && primitives.sources[i].object == object; ++i)
+                box = box.extended(primitives.item_boxes[i]);
+            boxes[kind] = box;
+            counts[kind] += i - first;
+        }
+    }
+
+    std::size_t counts[3] = {};
+    Bounds3 boxes[3];
+    bool sorted = true;  // by kind
+};
+
+LocalFrame frame_of(const Bounds3& box) {
     if (box.empty()) return {};
     LocalFrame frame;
     frame.center = box.center();
@@ -72,36 +96,18 @@ class LocalItemsMaker {
     }
 
     LocalItems make(int threads) && {
-        constexpr Slot kChunk = 4096;
-        const Slot end = fast_.slot_end();
-        for_each_index(threads, (end + kChunk - 1) / kChunk, [&](std::size_t i, int) {
-            const Slot first = static_cast<Slot>(i) * kChunk;
-            const Slot last = std::min(end, first + kChunk);
-            put_triangles(first, std::min(last, fast_.triangle_end()));
-            for (Slot slot = std::max(first, fast_.triangle_end()); slot < last; ++slot)
-                put_round(slot);
+        const InstructionSet isa = resolved(InstructionSet::kBest);
+        const LocalTrianglesJob job{frame_, items_.triangles.data(), items_.boxes.data()};
+        for_each_chunk(fast_, threads,
+                       [&](const TriangleChunk& chunk) { make_local_triangles(job, chunk, isa); });
+        const Slot first = fast_.triangle_end();
+        for_each_part(threads, fast_.slot_end() - first, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) put_round(first + static_cast<Slot>(i));
         });
         return std::move(items_);
     }
 
   private:
-    void put_triangles(Slot slot, Slot last) {
-        while (slot < last) {
-            const std::uint32_t object = fast_.source(slot).object;
-            const auto& mesh = std::get<TriangleMesh>(fast_.scene().objects[object].shape);
-            for (; slot < last && fast_.source(slot).object == object; ++slot) {
-                const IndexTriple& corners = mesh.triangles[fast_.source(slot).triangle];
-                Bounds3T<float> box;
-                for (std::size_t i = 0; i < 3; ++i) {
-                    const Vec3<float> p(frame_.local(mesh.positions[corners[i]]));
-                    items_.triangles[slot].corner[i] = p;
-                    box = box.extended(p);
-                }
-                items_.boxes[slot] = widened(box);
-            }
-        }
-    }
-
     void put_round(Slot slot) {
         items_.boxes[slot] = local_box(frame_, fast_.primitives().item_boxes[fast_.id(slot)]);
         if (slot >= fast_.sphere_end()) return;
@@ -147,20 +153,17 @@ CompactOctree octree_of(const LocalItems& items, CompactBuildOptions options) {
 }  // namespace
 
 FastScene::FastScene(const Scene& scene, const Primitives& primitives, OctreeType type, int threads)
-    : scene_(scene), primitives_(primitives), frame_(frame_of(primitives)) {
-    std::size_t counts[3] = {};
-    bool sorted = true;
-    Kind last = kTriangleKind;
-    for (const PrimitiveSource& source : primitives.sources) {
-        const Kind kind = kind_of(scene.objects[source.object]);
-        sorted &= kind >= last;
-        last = kind;
-        ++counts[kind];
-    }
-    triangle_end_ = static_cast<Slot>(counts[0]);
-    sphere_end_ = static_cast<Slot>(counts[0] + counts[1]);
-    slot_end_ = static_cast<Slot>(counts[0] + counts[1] + counts[2]);
-    if (!sorted) {
+    : scene_(scene), primitives_(primitives) {
+    const Survey survey(scene, primitives);
+    Bounds3 box = survey.boxes[kTriangleKind];
+    triangle_box_ = box;
+    box = box.extended(survey.boxes[kSphereKind]).extended(survey.boxes[kEllipsoidKind]);
+    frame_ = frame_of(box);
+    if (!box.empty()) largest_coordinate_ = std::max(max_norm(box.min), max_norm(box.max));
+    triangle_end_ = static_cast<Slot>(survey.counts[kTriangleKind]);
+    sphere_end_ = triangle_end_ + static_cast<Slot>(survey.counts[kSphereKind]);
+    slot_end_ = sphere_end_ + static_cast<Slot>(survey.counts[kEllipsoidKind]);
+    if (!survey.sorted) {
         Slot next[3] = {0, triangle_end_, sphere_end_};
         ids_.resize(slot_end_);
         for (PrimitiveId id = 0; id < slot_end_; ++id)

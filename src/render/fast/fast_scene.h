@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "big_vector.h"
+#include "nuvo/math/big_vector.h"
 #include "nuvo/math/bounds.h"
 #include "nuvo/octree/compact_build.h"
 #include "nuvo/render/fast.h"
@@ -39,6 +39,10 @@ class FastScene {
     const Scene& scene() const { return scene_; }
     const Primitives& primitives() const { return primitives_; }
     const LocalFrame& frame() const { return frame_; }
+    /// Holds every triangle; world space.
+    const Bounds3& triangle_box() const { return triangle_box_; }
+    /// Of all boxes of primitives; world space.
+    double largest_coordinate() const { return largest_coordinate_; }
     const CompactOctree& octree() const { return octree_; }
     /// Another one; `overlaps` of the options is filled in.
     CompactOctree octree(const CompactBuildOptions& options) const;
@@ -56,6 +60,8 @@ class FastScene {
     const Scene& scene_;
     const Primitives& primitives_;
     LocalFrame frame_;
+    Bounds3 triangle_box_;
+    double largest_coordinate_ = 0;
     Slot triangle_end_ = 0;
     Slot sphere_end_ = 0;
     Slot slot_end_ = 0;

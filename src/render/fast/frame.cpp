@@ -50,15 +50,12 @@ struct Frame::Tables {
         : rays(scene.scene().camera, resolution, scene.frame()),
           triangles(triangle_box),
           tiles(tiles_in_order(resolution)) {
-        // Those of the lights take about as long as all others, of which each needs the one before.
-        for_each_index(options.threads, 2, [&](std::size_t part, int) {
-            if (part == 0) {
-                shadow.emplace(scene, options.isa);
-            } else {
-                camera.emplace(scene, rays, options.isa);
-                shading.emplace(scene, rays, *camera, options.isa, options.redo_exactly);
-            }
-        });
+        shadow.emplace(scene, options.isa, options.threads, TableFilling::kLater);
+        camera.emplace(scene, rays, options.isa, options.threads, TableFilling::kLater);
+        const auto surfaces = std::make_shared<ShadingTables>(scene, rays, camera->spheres,
+                                                              options.isa, TableFilling::kLater);
+        fill_tables(scene, options.threads, *shadow, *camera, *surfaces);
+        shading.emplace(surfaces, options.redo_exactly);
     }
 
     CameraRays rays;

@@ -45,7 +45,6 @@ class LightBufferMaker {
     }
 
   private:
-    static constexpr double kFloatUnit = 0x1p-24;
     // Cells of a grid are so many times as wide as those of the finer one, and an item that covers
     // more cells than a cell of the coarser grid does belongs there.
     static constexpr int kCoarser = 8;
@@ -67,7 +66,7 @@ class LightBufferMaker {
     void allow(double error) {
         out_.point_error = static_cast<float>(error);
         // A local coordinate, and a sphere's centre and radius, have a rounding of at most 2 each.
-        const double all = error + source_.touch + 4 * kFloatUnit;
+        const double all = error + source_.touch + 4 * kFloatRoundoff;
         if (out_.inside)
             cube_.allow(all, out_);
         else

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "big_vector.h"
 #include "fast_scene.h"
+#include "nuvo/math/big_vector.h"
 #include "shadow_geometry.h"
 
 // What may stand between a light and a point is looked up in a grid of the ways from the light
@@ -45,7 +45,7 @@ struct LightBuffer {
     /// What it is made from.
     struct Source {
         const FastScene& scene;
-        const std::vector<RoundShape>& rounds;
+        const BigVector<RoundShape>& rounds;
         double reach;  ///< bounds |coordinate| in the scene
         double touch;  ///< what lies within this of a way may block it
     };

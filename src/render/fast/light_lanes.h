@@ -49,7 +49,7 @@ struct WayToLight {
         inverse = inverse_sqrt(square);
         const Floats error = Floats::load(tile.point_error + first) + Floats(light.location_error);
         // The difference 1 u; 3 u of the square by half; the root 2.2 u.
-        relative = small_error(error * inverse) + Floats(4.8F * kUnit);
+        relative = small_error(error * inverse) + Floats(4.8F * kFloatRoundoff);
     }
 
     /// The unit vector to the light.
@@ -75,11 +75,11 @@ HWY_INLINE void weaken_by_cone(const ShadingLight& light, const WayToLight& way,
         cosine = mul_add(way.to[axis], Floats(-light.axis[axis]), cosine);
     cosine = cosine * way.inverse;
     // 3 roundings of the product with a rounded axis, one more with the inverse.
-    const Floats error = way.relative + Floats(5.2F * kUnit);
+    const Floats error = way.relative + Floats(5.2F * kFloatRoundoff);
     const auto angle = [](const Floats& c)
                            HWY_ATTR { return arc_cosine(min(max(c, Floats(0.0F)), Floats(1.0F))); };
     // Roundings of angles up to pi / 2: the limits' and the differences'.
-    const Floats margin(kArcError + 8 * kUnit);
+    const Floats margin(kArcError + 8 * kFloatRoundoff);
     const Floats least = angle(cosine + error) - margin;
     const Floats most = angle(cosine - error) + margin;
     const Floats one(1.0F);
@@ -97,7 +97,7 @@ HWY_INLINE void weaken_by_cone(const ShadingLight& light, const WayToLight& way,
         low = select(most < Floats(light.cut_off), one, Floats(0.0F));
     }
     const Floats middle = (high + low) * Floats(0.5F);
-    const Floats half = (high - low) * Floats(0.5F) + Floats(4 * kUnit);
+    const Floats half = (high - low) * Floats(0.5F) + Floats(4 * kFloatRoundoff);
     factor.error = factor.error + half;
     factor.value = factor.value * middle;
     // NaN ends where nothing is known.
@@ -111,9 +111,9 @@ HWY_INLINE Factor strength(const ShadingLight& light, const WayToLight& way) {
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
     Factor factor{Floats(1.0F), Floats(0.0F), RayMask::from_bits(0xffff)};
     const Floats distance = way.square * way.inverse;
-    const Floats relative = way.relative + Floats(2 * kUnit);
+    const Floats relative = way.relative + Floats(2 * kFloatRoundoff);
     if (light.ranged) {
-        const Floats slack = distance * (relative + Floats(2 * kUnit));
+        const Floats slack = distance * (relative + Floats(2 * kFloatRoundoff));
         factor.perhaps = ~(distance - slack > Floats(light.radius));
         factor.error =
             select(distance + slack < Floats(light.radius), Floats(0.0F), Floats(kInfinity));
@@ -124,7 +124,7 @@ HWY_INLINE Factor strength(const ShadingLight& light, const WayToLight& way) {
                     distance, Floats(light.attenuation[0]));
         factor.value = reciprocal(max(loss, Floats(1.0F)));
         // At most quadratic in the distance; 5 roundings of the polynomial, 2 of the inverse.
-        const Floats error = mul_add(relative, Floats(2.0F), Floats(8 * kUnit));
+        const Floats error = mul_add(relative, Floats(2.0F), Floats(8 * kFloatRoundoff));
         factor.error = mul_add(factor.value * Floats(1.2F), error, factor.error);
     }
     if (light.spot) weaken_by_cone(light, way, factor);
@@ -144,7 +144,7 @@ struct Lobe {
 HWY_INLINE Lobe specular_lobe(const Floats (&normal)[3], const Floats (&to_light)[3],
                               const Floats (&to_viewer)[3], const Floats& normal_error,
                               const Floats& directions_error, const Floats& exponent) {
-    constexpr float kBelowOne = 1 - kUnit;
+    constexpr float kBelowOne = 1 - kFloatRoundoff;
     constexpr float kTiny = 0x1p-100F;  // keeps the root of 0 finite
     const Floats one(1.0F);
     Floats sum[3];
@@ -156,7 +156,8 @@ HWY_INLINE Lobe specular_lobe(const Floats (&normal)[3], const Floats (&to_light
     const Floats inverse = inverse_sqrt(square);
     // The sum's rounding (of a length up to 2); the square's 3 u by half, the root, the product.
     const Floats halfway_error =
-        small_error((directions_error + Floats(2 * kUnit)) * inverse) + Floats(4.8F * kUnit);
+        small_error((directions_error + Floats(2 * kFloatRoundoff)) * inverse) +
+        Floats(4.8F * kFloatRoundoff);
     Floats between(0.0F);
     for (int axis = 0; axis < 3; ++axis) {
         const Floats difference = neg_mul_add(sum[axis], inverse, normal[axis]);
@@ -166,7 +167,8 @@ HWY_INLINE Lobe specular_lobe(const Floats (&normal)[3], const Floats (&to_light
     const Floats length = between * above_inverse_sqrt(between + Floats(kTiny));
     const Floats error = normal_error + halfway_error;
     const Floats z_error =
-        mul_add(length, error, mul_add(error, error, z * Floats(6 * kUnit))) * Floats(1.01F);
+        mul_add(length, error, mul_add(error, error, z * Floats(6 * kFloatRoundoff))) *
+        Floats(1.01F);
 
     const Floats cosine = one - z;
     const Floats power = power_of_complement(min(z, Floats(kBelowOne)), exponent);
@@ -178,7 +180,7 @@ HWY_INLINE Lobe specular_lobe(const Floats (&normal)[3], const Floats (&to_light
     Lobe lobe;
     lobe.value = power;
     lobe.error = select(regular, power * (steep / cosine) * Floats(kSecondOrder), lipschitz) +
-                 Floats(kPowerError + kUnit);
+                 Floats(kPowerError + kFloatRoundoff);
     lobe.perhaps = ~(z - z_error > one);
     const RayMask even = exponent == Floats(0.0F);  // x^0 is 1
     lobe.value = select(even, one, lobe.value);

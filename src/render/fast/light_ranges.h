@@ -60,7 +60,7 @@ class PlaneRanges {
         // e weight (1 + |s|) / least, u by e (1 + |s|) and P_k times that. W has two roundings of
         // numbers up to 2; s, the product and the difference three more.
         const double slope = (other + light.weight * reach) / least;
-        const double roundings = 4 * kFloatUnit / least + 4 * kFloatUnit;
+        const double roundings = 4 * kFloatRoundoff / least + 4 * kFloatRoundoff;
         stretch_ = 2 * (1 + slope) * (1 + reach * light.weight / least);
         rounding_ = 2 * (1 + slope) * reach * roundings;
         out.inside = false;
@@ -108,7 +108,6 @@ class PlaneRanges {
     }
 
   private:
-    static constexpr double kFloatUnit = 0x1p-24;
     // Seen from nearer, the scene's near side would fill most of the plane.
     static constexpr double kLeastShare = 0.25;
     static constexpr float kLeastExtent = 0x1p-20F;
@@ -164,7 +163,7 @@ class CubeRanges {
     /// `error` bounds that of points on each axis, and the items' own.
     void allow(double error, LightBuffer& out) {
         // W has three roundings of numbers up to 2.
-        error_ = static_cast<float>(weight_ * error + 8 * kFloatUnit);
+        error_ = static_cast<float>(weight_ * error + 8 * kFloatRoundoff);
         out.nearest = 2 * kNear * error_;
     }
 
@@ -200,7 +199,8 @@ class CubeRanges {
         // W_k >= least; as much again for what |u| may be above.
         const RayMask deep = least > Floats(kNear * error_);
         const Floats inverse_least = Floats(1.0F) / least;
-        const Floats margin = mul_add(Floats(8 * error_), inverse_least, Floats(8 * kFloatUnit));
+        const Floats margin =
+            mul_add(Floats(8 * error_), inverse_least, Floats(8 * kFloatRoundoff));
         for (int i = 0; i < 2; ++i) {
             const auto [low, high] = range(axes[i], k, upper, inverse_least, most);
             out.low[i] = select(deep, low - margin, Floats(-2.0F));
@@ -211,7 +211,6 @@ class CubeRanges {
     }
 
   private:
-    static constexpr float kFloatUnit = 0x1p-24F;
     // What lies less deep than this many errors may be met anywhere on a face.
     static constexpr float kNear = 16;
 

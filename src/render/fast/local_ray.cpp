@@ -104,9 +104,9 @@ LocalRay::LocalRay(const Ray& ray, const LocalFrame& frame, float reach) {
     square = static_cast<float>(dot(d, d));
     // A point of the ray at a box's entry lies within 2 margins of that box, which is to be less
     // than 2^14 units of the leaf's grid; and its error less than 2^-6 units.
-    const double margin =
-        kSlabRoundings * kFloatUnit * (reach + max_norm(Point3{origin[0], origin[1], origin[2]})) +
-        error;
+    const double margin = kSlabRoundings * kFloatRoundoff *
+                              (reach + max_norm(Point3{origin[0], origin[1], origin[2]})) +
+                          error;
     least_unit = static_cast<float>(larger(margin * 0x1p-13, error * 0x1p6));
 }
 
@@ -118,7 +118,7 @@ void LocalRay::prepare_slabs(float reach) {
         const float bounded = size > kLeastDirection ? size : kLeastDirection;
         const double i = 1 / bounded;
         const double slack =
-            (kSlabRoundings * kFloatUnit * (reach + std::fabs(origin[axis])) + error) * i;
+            (kSlabRoundings * kFloatRoundoff * (reach + std::fabs(origin[axis])) + error) * i;
         const double signed_i = negative != 0 ? -i : i;
         const double at = -origin[axis] * signed_i;
         inverse[axis] = static_cast<float>(signed_i);

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "nuvo/math/error_bounds.h"
 #include "nuvo/math/ray.h"
 #include "wide_octree.h"
 
@@ -19,7 +20,6 @@
 
 namespace nuvo {
 
-inline constexpr float kFloatUnit = 0x1p-24F;
 inline constexpr double kSlabRoundings = 8;
 
 struct LocalRay {

@@ -7,6 +7,7 @@
 #include <hwy/foreach_target.h>
 // After foreach_target.h:
 #include "lanes.h"
+#include "nuvo/math/error_bounds.h"
 
 // Which of a voxel's eight octants 16 items touch. The point where the three planes meet is taken
 // for the origin; then an octant reaches on each axis from 0 to one of the voxel's faces, a linear
@@ -22,7 +23,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace nuvo::HWY_NAMESPACE {
 
-constexpr float kUnit = 0x1p-24F;
 constexpr float kSecondOrder = 1.125F;
 constexpr float kSmallest = 0x1p-126F;
 
@@ -57,6 +57,15 @@ struct Cleared {
         Ints kept(0);
         for (int o = 0; o < 8; ++o)
             kept = kept + select(mask_for<std::int32_t>(octant[o]), Ints(0), Ints(1 << o));
+        if (count == 16) {
+            for (std::size_t i = 0; i < Ints::Shape::kParts; ++i) {
+                std::uint8_t* const at = masks + i * Ints::Shape::kPart;
+                const hn::FixedTag<std::uint8_t, Ints::Shape::kPart> bytes;
+                hn::StoreU(hn::And(hn::LoadU(bytes, at), hn::DemoteTo(bytes, kept.part[i])), bytes,
+                           at);
+            }
+            return;
+        }
         std::int32_t lanes[16];
         kept.store(lanes);
         for (std::size_t i = 0; i < count; ++i)
@@ -67,6 +76,10 @@ struct Cleared {
 // 16 of the items; the last one over again where there are fewer.
 HWY_INLINE Ints load_items(std::span<const std::uint32_t> items, std::size_t begin,
                            std::uint32_t first, std::int32_t stride) {
+    if (items.size() - begin >= 16) {
+        const auto* const at = reinterpret_cast<const std::int32_t*>(items.data() + begin);
+        return (Ints::load(at) - Ints(static_cast<std::int32_t>(first))) * Ints(stride);
+    }
     std::int32_t index[16];
     const std::size_t last = items.size() - 1;
     for (std::size_t i = 0; i < 16; ++i)
@@ -107,7 +120,7 @@ HWY_INLINE void clear_by_plane(const Corners& c, const Octants& octants, Cleared
     const Floats t = c.widest + octants.reach;
     const Floats e = c.widest + c.longest + 2.0F;
     const Floats bound =
-        mul_add(c.longest * Floats(kSecondOrder * kUnit),
+        mul_add(c.longest * Floats(kSecondOrder * kFloatRoundoff),
                 mul_add(Floats(24.0F) * t, e, Floats(6.0F) * c.longest * (e + Floats(8.0F) * t)),
                 Floats(kSmallest));
     Floats least[3][2];
@@ -144,7 +157,7 @@ HWY_INLINE void clear_by_projection(const Corners& c, const Octants& octants, in
     const Floats e = c.widest + 2.0F;
     const Floats size = c.longest;
     const Floats bound = mul_add(
-        Floats(kSecondOrder * kUnit),
+        Floats(kSecondOrder * kFloatRoundoff),
         mul_add(Floats(4.0F) * t, e, Floats(12.0F) * size * (e + size + t)), Floats(kSmallest));
     const Floats turn = neg_mul_add(c.edge[0][b], c.edge[1][a], c.edge[0][a] * c.edge[1][b]);
     const Floats sign = select(turn < Floats(0.0F), Floats(-1.0F), Floats(1.0F));
@@ -197,7 +210,7 @@ void clear_spheres(const LocalSphere* spheres, std::uint32_t first, const CutVox
         }
         const Floats radius = Floats::gather(&spheres->radius, offset);
         const Floats error =
-            Floats(kSecondOrder * kUnit) * (widest + widest + (2.0F + octants.reach));
+            Floats(kSecondOrder * kFloatRoundoff) * (widest + widest + (2.0F + octants.reach));
         Floats near[3][2];
         Floats far[3][2];
         for (int axis = 0; axis < 3; ++axis) {
@@ -216,8 +229,8 @@ void clear_spheres(const LocalSphere* spheres, std::uint32_t first, const CutVox
         }
         const Floats outer = radius + kLocalRounding;
         const Floats inner = max(radius - kLocalRounding, zero);
-        const Floats most = outer * outer * Floats(1 + 16 * kUnit);
-        const Floats least = inner * inner * Floats(1 - 16 * kUnit);
+        const Floats most = outer * outer * Floats(1 + 16 * kFloatRoundoff);
+        const Floats least = inner * inner * Floats(1 - 16 * kFloatRoundoff);
         Cleared cleared;
         for (unsigned o = 0; o < 8; ++o) {
             const unsigned x = o & 1;

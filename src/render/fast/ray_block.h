@@ -112,7 +112,7 @@ class RayBlock {
         return true;
     }
     // Two roundings of the sum and one of the product more than LocalRay has: u |o i| + 2 u slack.
-    static constexpr float kSlack = static_cast<float>(kSlabRoundings + 2) * kFloatUnit;
+    static constexpr float kSlack = static_cast<float>(kSlabRoundings + 2) * kFloatRoundoff;
     static constexpr std::int32_t kSignBit = std::numeric_limits<std::int32_t>::min();
 
     void put(const LocalRay& ray, std::size_t i) {

@@ -9,12 +9,17 @@ namespace nuvo {
 
 ShadingStage::ShadingStage(const FastScene& scene, const CameraRays& camera,
                            const CameraTables& tables, InstructionSet isa, bool redo_exactly)
-    : redo_exactly_(redo_exactly), lit_(scene.scene().lights.size()) {
-    isa = resolved(isa);
-    tables_ = std::make_shared<const ShadingTables>(scene, camera, tables.spheres, isa);
-    pick_surface_kernel(isa, kernels_);
-    pick_light_kernels(isa, kernels_);
-    pick_finish_kernel(isa, kernels_);
+    : ShadingStage(
+          std::make_shared<const ShadingTables>(scene, camera, tables.spheres, resolved(isa)),
+          redo_exactly) {}
+
+ShadingStage::ShadingStage(std::shared_ptr<const ShadingTables> tables, bool redo_exactly)
+    : tables_(std::move(tables)),
+      redo_exactly_(redo_exactly),
+      lit_(tables_->scene.scene().lights.size()) {
+    pick_surface_kernel(tables_->isa, kernels_);
+    pick_light_kernels(tables_->isa, kernels_);
+    pick_finish_kernel(tables_->isa, kernels_);
 }
 
 void ShadingStage::surface(Tile& tile) {

@@ -62,6 +62,8 @@ class ShadingStage {
     /// `redo_exactly` false: bytes that are not certain stay as they are.
     ShadingStage(const FastScene& scene, const CameraRays& camera, const CameraTables& tables,
                  InstructionSet isa, bool redo_exactly = true);
+    /// With tables that are filled before anything is asked.
+    explicit ShadingStage(std::shared_ptr<const ShadingTables> tables, bool redo_exactly = true);
 
     const ShadingTables& tables() const { return *tables_; }
 

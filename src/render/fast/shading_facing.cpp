@@ -9,8 +9,8 @@
 #define HWY_TARGET_INCLUDE "fast/shading_facing.cpp"
 #include <hwy/foreach_target.h>
 
-#include "fast/lanes.h"
 #include "fast/wide_triangles.h"
+#include "fast/wide_vectors.h"
 
 // Normals of triangles and what they say about each light, in double, 8 triangles at a time.
 //
@@ -27,8 +27,8 @@ constexpr double kMagnitudes = 0x1p15;
 // Squares of smaller products may be subnormal.
 constexpr double kSmallestSquare = 0x1p-900;
 
-struct Batch {
-    double corner[9][kBatch] = {};
+/// What is known of a batch's triangles beside their corners.
+struct Surfaces {
     double normal[9][kBatch] = {};        // of smooth triangles
     double two_sided[kBatch] = {};        // 1: not solid
     SmoothTriangle* smooth[kBatch] = {};  // null: flat
@@ -40,23 +40,21 @@ class TriangleFiller {
     explicit TriangleFiller(ShadingTables& tables)
         : tables_(tables), scale_(tables.scene.frame().scale) {}
 
-    void run() {
+    void run(const TriangleChunk& chunk) {
         const FastScene& scene = tables_.scene;
-        std::size_t filled = 0;
         std::uint32_t object = ~0U;
-        for (Slot slot = 0; slot < scene.triangle_end(); ++slot) {
-            const PrimitiveSource& source = scene.source(slot);
-            if (source.object != object) {
-                object = source.object;
-                enter(object);
-            }
-            put(slot, source.triangle, filled);
-            if (++filled == kBatch) {
-                take(slot + 1 - static_cast<Slot>(kBatch), kBatch);
-                filled = 0;
-            }
-        }
-        if (filled != 0) take(scene.triangle_end() - static_cast<Slot>(filled), filled);
+        chunk.for_each_batch(
+            [&](const TriangleBatch& batch, Slot first, std::size_t count) HWY_ATTR {
+                for (std::size_t lane = 0; lane < count; ++lane) {
+                    const PrimitiveSource& source = scene.source(first + static_cast<Slot>(lane));
+                    if (source.object != object) {
+                        object = source.object;
+                        enter(object);
+                    }
+                    put(first + static_cast<Slot>(lane), source.triangle, lane);
+                }
+                take(batch, first, count);
+            });
     }
 
   private:
@@ -68,36 +66,28 @@ class TriangleFiller {
         offset_ = mesh_->normals.empty() ? 0 : tables_.smooth_offsets[object];
     }
 
-    void put(Slot slot, std::uint32_t index, std::size_t lane) {
+    HWY_INLINE void put(Slot slot, std::uint32_t index, std::size_t lane) {
         if (!tables_.triangle_words.empty()) tables_.triangle_words[slot] = word_;
-        copy(mesh_->positions, mesh_->triangles[index], batch_.corner, lane);
-        batch_.two_sided[lane] = two_sided_ ? 1 : 0;
-        batch_.smooth[lane] = nullptr;
+        surfaces_.two_sided[lane] = two_sided_ ? 1 : 0;
+        surfaces_.smooth[lane] = nullptr;
         if (mesh_->normals.empty()) return;
         const auto& corners =
             mesh_->normal_triangles.empty() ? mesh_->triangles : mesh_->normal_triangles;
-        copy(mesh_->normals, corners[index], batch_.normal, lane);
-        batch_.smooth[lane] = &tables_.smooth[slot - offset_];
-        batch_.any_smooth = true;
-    }
-    static void copy(const std::vector<Vector3>& from, const IndexTriple& corners,
-                     double (&to)[9][kBatch], std::size_t lane) {
         for (std::size_t i = 0; i < 3; ++i)
             for (int axis = 0; axis < 3; ++axis)
-                to[i * 3 + static_cast<std::size_t>(axis)][lane] = from[corners[i]][axis];
-    }
-    static HWY_INLINE Wide3 corner(const double (&values)[9][kBatch], std::size_t i) {
-        return {Wide::load(values[3 * i]), Wide::load(values[3 * i + 1]),
-                Wide::load(values[3 * i + 2])};
+                surfaces_.normal[i * 3 + static_cast<std::size_t>(axis)][lane] =
+                    mesh_->normals[corners[index][i]][axis];
+        surfaces_.smooth[lane] = &tables_.smooth[slot - offset_];
+        surfaces_.any_smooth = true;
     }
 
-    void take(Slot first, std::size_t count) {
-        const Wide3 a = corner(batch_.corner, 0);
+    HWY_INLINE void take(const TriangleBatch& batch, Slot first, std::size_t count) {
+        const Wide3 a = load_wide(batch.corner);
         const Wide scale(scale_);
         WideTriangles t;
         t.from = (a - wide(tables_.scene.scene().camera.position)) * scale;
-        t.e1 = (corner(batch_.corner, 1) - a) * scale;
-        t.e2 = (corner(batch_.corner, 2) - a) * scale;
+        t.e1 = (load_wide(batch.corner + 3) - a) * scale;
+        t.e2 = (load_wide(batch.corner + 6) - a) * scale;
         Wide3 n = cross(t.e1, t.e2);
         const Wide magnitudes = abs(t.e1.y * t.e2.z) + abs(t.e1.z * t.e2.y) + abs(t.e1.z * t.e2.x) +
                                 abs(t.e1.x * t.e2.z) + abs(t.e1.x * t.e2.y) + abs(t.e1.y * t.e2.x);
@@ -108,17 +98,17 @@ class TriangleFiller {
         const Wide side = dot(n, t.from);
         const Wide reach = norm1(t.from) + norm1(t.e1) + norm1(t.e2);
         const auto sided = known & (abs(side) > reach * Wide(4 * kTriangleNormalError));
-        const auto two_sided = Wide::load(batch_.two_sided) > Wide(0.0);
+        const auto two_sided = Wide::load(surfaces_.two_sided) > Wide(0.0);
         const auto behind = side > Wide(0.0);
         known = sided | (known & ~two_sided);
         const Wide one(1.0);
         const Wide unknown(std::numeric_limits<double>::quiet_NaN());
         const Wide turned = select(behind & two_sided, -one, one);
         store(n * select(known, turned, unknown), a, first, count);
-        if (!batch_.any_smooth) return;
+        if (!surfaces_.any_smooth) return;
         const Wide sign = select(sided, select(behind, -turned, turned), unknown);
         store_smooth(t, sign, count);
-        batch_.any_smooth = false;
+        surfaces_.any_smooth = false;
     }
 
     HWY_INLINE void store(const Wide3& n, const Wide3& a, Slot first, std::size_t count) {
@@ -150,15 +140,16 @@ class TriangleFiller {
 
     HWY_INLINE void store_smooth(const WideTriangles& t, const Wide& sign, std::size_t count) {
         const SmoothFunctions functions(tables_.camera, static_cast<double>(tables_.rays.longest),
-                                        t, corner(batch_.normal, 0), corner(batch_.normal, 1),
-                                        corner(batch_.normal, 2), sign);
+                                        t, load_wide(surfaces_.normal),
+                                        load_wide(surfaces_.normal + 3),
+                                        load_wide(surfaces_.normal + 6), sign);
         for (std::size_t i = 0; i < count; ++i)
-            if (batch_.smooth[i] != nullptr) functions.store(i, *batch_.smooth[i]);
+            if (surfaces_.smooth[i] != nullptr) functions.store(i, *surfaces_.smooth[i]);
     }
 
     ShadingTables& tables_;
     double scale_;
-    Batch batch_;
+    Surfaces surfaces_;
     // The object that the next triangles belong to.
     const TriangleMesh* mesh_ = nullptr;
     SurfaceWord word_ = 0;
@@ -166,7 +157,9 @@ class TriangleFiller {
     std::uint32_t offset_ = 0;
 };
 
-void fill_triangles_in(ShadingTables& tables) { TriangleFiller(tables).run(); }
+void fill_triangles_in(ShadingTables& tables, const TriangleChunk& chunk) {
+    TriangleFiller(tables).run(chunk);
+}
 
 }  // namespace nuvo::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -176,8 +169,8 @@ HWY_AFTER_NAMESPACE();
 
 namespace nuvo {
 
-void fill_triangles(ShadingTables& tables, InstructionSet isa) {
-    (NUVO_FOR_ISA(isa, fill_triangles_in))(tables);
+void fill_triangles(ShadingTables& tables, const TriangleChunk& chunk, InstructionSet isa) {
+    (NUVO_FOR_ISA(isa, fill_triangles_in))(tables, chunk);
 }
 
 }  // namespace nuvo

@@ -4,9 +4,9 @@
 
 namespace nuvo {
 
-/// Fills the numbers of all triangles: `facing` of each light that has room for them, `normals` if
-/// they have room, `triangle_words` if they have room.
-void fill_triangles(ShadingTables& tables, InstructionSet isa);
+/// Fills the numbers of a chunk's triangles: `facing` of each light that has room for them,
+/// `normals`, `triangle_words` and `smooth` if they have room.
+void fill_triangles(ShadingTables& tables, const TriangleChunk& chunk, InstructionSet isa);
 
 /// The word of a primitive of that object.
 SurfaceWord surface_word(const ShadingTables& tables, const Object& object);

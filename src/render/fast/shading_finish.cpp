@@ -139,7 +139,8 @@ class TileFinisher {
         MaterialLanes material;
         find_materials(b, hit, material);
         const bool specular = (tables_.any_flags & kSpecularFlag) != 0;
-        const float rounding = kSlack * kUnit * (3 + static_cast<float>(tables_.lights.size()));
+        const float rounding =
+            kSlack * kFloatRoundoff * (3 + static_cast<float>(tables_.lights.size()));
         PixelColors out;
         Floats brightest;
         sum(scratch_.diffuse, first, material.emissive, material.diffuse, out, brightest);
@@ -196,7 +197,7 @@ class TileFinisher {
             mul_add(mul_add(byte[2], Floats(256.0F), byte[1]), Floats(256.0F), byte[0]);
         store_packed(integers_from(packed), bytes_ + b * kBlockBytes);
         const Floats farthest = max(max(off[0], off[1]), off[2]);
-        return (~(farthest < Floats(0.5F - kUnit) - pixels.error)).bits();
+        return (~(farthest < Floats(0.5F - kFloatRoundoff) - pixels.error)).bits();
     }
 
     static constexpr int kRowBytes = 3 * kBlockSide;  // of a block

@@ -29,7 +29,7 @@ class LightSampler {
           exact_(tables.scene.scene().lights[light]),
           tile_(tile),
           scratch_(scratch),
-          tint_rounding_(tables.channels == 1 ? 0 : 2 * kUnit) {}
+          tint_rounding_(tables.channels == 1 ? 0 : 2 * kFloatRoundoff) {}
 
     void run(TileMask& wanted) {
         for (int b = 0; b < kTileBlocks; ++b) {
@@ -97,11 +97,11 @@ class LightSampler {
                            (slot < Ints(static_cast<std::int32_t>(tables_.scene.triangle_end())));
         const Floats facing = Floats::gather(light_.facing.data(), select(known, slot, Ints(0)));
         if constexpr (kDirectional) {
-            return {facing, mul_add(abs(facing), Floats(1.01F * kUnit + tint_rounding_),
+            return {facing, mul_add(abs(facing), Floats(1.01F * kFloatRoundoff + tint_rounding_),
                                     Floats(light_.facing_error))};
         } else {
             const Floats value = facing * way.inverse;
-            const Floats relative = way.relative + Floats(2.1F * kUnit + tint_rounding_);
+            const Floats relative = way.relative + Floats(2.1F * kFloatRoundoff + tint_rounding_);
             return {value,
                     mul_add(abs(value), relative, Floats(light_.facing_error) * way.inverse)};
         }
@@ -118,20 +118,21 @@ class LightSampler {
         }
         const Floats gain(light_.gain);
         const Floats error =
-            normal_error(b) + direction_error(way) + Floats(3.1F * kUnit + tint_rounding_);
-        return {dot * gain, mul_add(abs(dot), Floats(3 * kUnit), error) * gain};
+            normal_error(b) + direction_error(way) + Floats(3.1F * kFloatRoundoff + tint_rounding_);
+        return {dot * gain, mul_add(abs(dot), Floats(3 * kFloatRoundoff), error) * gain};
     }
     HWY_INLINE Floats normal_error(int b) const {
-        constexpr float kTableError = 1.1F * kUnit;  // one rounding and kTriangleNormalError
+        constexpr float kTableError =
+            1.1F * kFloatRoundoff;  // one rounding and kTriangleNormalError
         return select(RayMask::from_bits(scratch_.curved[b]),
                       Floats::load(scratch_.normal_error + b * kBlockLanes), Floats(kTableError));
     }
     // Of the unit vector to the light.
     HWY_INLINE Floats direction_error(const Way& way) const {
         if constexpr (kDirectional)
-            return Floats(1.1F * kUnit);
+            return Floats(1.1F * kFloatRoundoff);
         else
-            return way.relative + Floats(1.1F * kUnit);
+            return way.relative + Floats(1.1F * kFloatRoundoff);
     }
 
     HWY_INLINE void add_ambient(int first, Lit& lit, RayMask& wanted) const {
@@ -139,7 +140,7 @@ class LightSampler {
             of_materials(first, &ShadingMaterial::ambient) * Floats(light_.ambient);
         wanted = wanted | (ambient > Floats(0.0F));
         lit.value = lit.value + ambient;
-        lit.error = mul_add(lit.value, Floats(4 * kUnit + tint_rounding_), lit.error);
+        lit.error = mul_add(lit.value, Floats(4 * kFloatRoundoff + tint_rounding_), lit.error);
     }
     HWY_INLINE Floats of_materials(int first, float ShadingMaterial::*member) const {
         if (tables_.uniform) return Floats(tables_.materials[0].*member);
@@ -172,13 +173,14 @@ class LightSampler {
             }
             // The view's: d's own, 2 halves of |d|^2, the root's and the product's.
             const Floats directions_error =
-                direction_error(way) + Floats(tables_.rays.relative + 4.3F * kUnit);
+                direction_error(way) + Floats(tables_.rays.relative + 4.3F * kFloatRoundoff);
             lobe = specular_lobe(normal, to_light, to_viewer, normal_error(first / kBlockLanes),
                                  directions_error, of_materials(first, &ShadingMaterial::exponent));
             lobe.perhaps = lobe.perhaps & shiny;
             const Floats gain(light_.gain);
             lobe.error =
-                mul_add(lobe.value, Floats(3.1F * kUnit + tint_rounding_), lobe.error) * gain;
+                mul_add(lobe.value, Floats(3.1F * kFloatRoundoff + tint_rounding_), lobe.error) *
+                gain;
             lobe.value = lobe.value * gain;
             if (factor != nullptr) {
                 lobe.error = mul_add(lobe.value, factor->error, lobe.error);

@@ -12,10 +12,6 @@ namespace {
 // Outweighs second-order terms and the roundings of a bound's own computation.
 constexpr double kSlack = 1.02;
 
-float rounded_up(double value) {
-    return std::nextafter(static_cast<float>(value), std::numeric_limits<float>::infinity());
-}
-
 std::size_t whole_tiles(int pixels) {
     return static_cast<std::size_t>((pixels + kTileSide - 1) / kTileSide * kTileSide);
 }
@@ -54,7 +50,7 @@ ShadingRays::ShadingRays(const CameraRays& camera) {
     const double across = nuvo::length(camera.right) * 0.5 * size.width;
     const double along = 1 + nuvo::length(camera.down) * 0.5 * size.height;
     // The sum of perpendicular parts a, b is at least (|a| + |b|) / sqrt(2).
-    const double unit = kFloatUnit;
+    const double unit = kFloatRoundoff;
     longest = rounded_up(kSlack * std::sqrt(across * across + along * along));
     error = rounded_up(kSlack * unit * (across + along + static_cast<double>(longest)));
     relative = rounded_up(kSlack * unit * (std::sqrt(2.0) + 1));

@@ -20,11 +20,6 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kLightsWithFacing = 8;
 
 float rounded(double value) { return static_cast<float>(value); }
-// Not below `value` >= 0; of 0 it is 0, because subnormal operands slow every operation down.
-float rounded_up(double value) {
-    if (value == 0) return 0;
-    return std::nextafter(static_cast<float>(value), std::numeric_limits<float>::infinity());
-}
 double largest(const Color& c) { return std::max(c.x, std::max(c.y, c.z)); }
 bool is_gray(const Color& c) { return c.x == c.y && c.y == c.z; }
 double length2(const Vector3& v) { return length(v); }
@@ -58,7 +53,8 @@ ShadingMaterial shading_material(const Material& m) {
     ShadingMaterial out{};
     out.emissive_most = rounded_up(largest(m.emissive_color) * kFullByte);
     // The error counts at least 3 units of emissive_most.
-    if (put_surely(m.emissive_color, out.emissive)) out.emissive_most += kOffTie / (3 * kFloatUnit);
+    if (put_surely(m.emissive_color, out.emissive))
+        out.emissive_most += kOffTie / (3 * kFloatRoundoff);
     if (!m.lit) return out;
     put(m.diffuse_color, kFullByte, out.diffuse);
     put(m.specular_color, kFullByte, out.specular);
@@ -141,7 +137,7 @@ void add_mesh_flags(ShadingTables& tables) {
     if ((tables.any_flags & (kSmoothFlag | kColoredFlag)) != 0) tables.uniform = false;
     if ((tables.any_flags & kSmoothFlag) != 0) place_smooth_triangles(tables);
     // Weights in double, then one rounding of each sum.
-    tables.bounds.color_error = rounded_up(2 * kFloatUnit * most * kFullByte);
+    tables.bounds.color_error = rounded_up(2 * kFloatRoundoff * most * kFullByte);
 }
 
 // The farthest that a point of the scene is from `p`, in the local frame.
@@ -171,7 +167,7 @@ void place_light(const ShadingTables& tables, const Light& exact, ShadingLight& 
     const Point3 location = scene.frame().local(exact.location);
     for (int axis = 0; axis < 3; ++axis) light.location[axis] = rounded(location[axis]);
     light.location_error = rounded_up(
-        kSlack * (kFloatUnit * length2(location) + world_rounding(scene, exact.location)));
+        kSlack * (kFloatRoundoff * length2(location) + world_rounding(scene, exact.location)));
     const Vector3& a = exact.attenuation;
     light.attenuated = a.x > 1 || a.y != 0 || a.z != 0;
     const double unit = exact.units_per_world / scale;
@@ -247,12 +243,13 @@ void bound_points(ShadingTables& tables) {
     // and of the product.
     constexpr double kSceneRadius = 1.75;  // the box is within 1 of 0 on each axis
     const double world = world_rounding(tables.scene, tables.scene.scene().camera.position);
-    bounds.point_constant =
-        rounded_up(kSlack * (kFloatUnit * (length2(tables.camera.origin) + kSceneRadius) + world));
-    bounds.point_by_t = rounded_up(kSlack * (4.2 * kFloatUnit * static_cast<double>(rays.longest) +
-                                             static_cast<double>(rays.error)));
+    bounds.point_constant = rounded_up(
+        kSlack * (kFloatRoundoff * (length2(tables.camera.origin) + kSceneRadius) + world));
+    bounds.point_by_t =
+        rounded_up(kSlack * (4.2 * kFloatRoundoff * static_cast<double>(rays.longest) +
+                             static_cast<double>(rays.error)));
     // Of a sphere's centre and of a point's last sum.
-    bounds.curved_point_error = rounded_up(kSlack * (kFloatUnit * 2 * kSceneRadius + world));
+    bounds.curved_point_error = rounded_up(kSlack * (kFloatRoundoff * 2 * kSceneRadius + world));
 }
 
 std::vector<BackgroundBand> bands(const std::vector<Color>& colors,
@@ -306,7 +303,7 @@ void add_background(ShadingTables& tables) {
         const double most = max_norm(slope);
         const auto y = static_cast<double>(tables.rays.sine_error);
         out.error = rounded_up(kSlack * kFullByte *
-                               (most * y + kFloatUnit * (2 * max_norm(middle) + 3 * most)));
+                               (most * y + kFloatRoundoff * (2 * max_norm(middle) + 3 * most)));
     } else {
         out.kind = ShadingBackground::Kind::kGradient;
         out.in_range = false;  // where bounds lie in two bands
@@ -329,8 +326,9 @@ SurfaceWord surface_word(const ShadingTables& tables, const Object& object) {
 }
 
 ShadingTables::ShadingTables(const FastScene& scene_in, const CameraRays& camera_in,
-                             const BigVector<CameraSphere>& spheres_in, InstructionSet isa)
-    : scene(scene_in), camera(camera_in), spheres(spheres_in), rays(camera_in) {
+                             const BigVector<CameraSphere>& spheres_in, InstructionSet isa_in,
+                             TableFilling filling)
+    : scene(scene_in), camera(camera_in), isa(isa_in), spheres(spheres_in), rays(camera_in) {
     bound_points(*this);
     add_materials(*this);
     add_mesh_flags(*this);
@@ -340,8 +338,10 @@ ShadingTables::ShadingTables(const FastScene& scene_in, const CameraRays& camera
     if (!uniform) triangle_words.resize(triangles);
     const bool few_lights = lights.size() <= kLightsWithFacing;
     if ((any_flags & kSpecularFlag) != 0 || !few_lights) normals.resize(4 * triangles);
-    if (triangles != 0) fill_triangles(*this, isa);
+    if (filling == TableFilling::kNow) fill_tables(scene, 1, *this);
 }
+
+void ShadingTables::take(const TriangleChunk& chunk) { fill_triangles(*this, chunk, isa); }
 
 std::size_t ShadingTables::memory_bytes() const {
     std::size_t bytes = sizeof(*this) + rays.memory_bytes() +

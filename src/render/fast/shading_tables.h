@@ -5,11 +5,13 @@
 #include <memory>
 #include <vector>
 
-#include "big_vector.h"
 #include "camera_tables.h"
 #include "fast_scene.h"
+#include "nuvo/math/big_vector.h"
+#include "nuvo/math/error_bounds.h"
 #include "shading_rays.h"
 #include "tile.h"
+#include "triangle_chunk.h"
 
 // What shading knows of a picture before its first pixel: materials, lights and background in float
 // with bounds on their errors, and for each triangle and light one number. On a flat triangle n.l
@@ -17,9 +19,6 @@
 // constant numerator: so most pixels need neither their normal nor a product with it.
 
 namespace nuvo {
-
-/// Half the distance from 1 to the next float: the relative error of one float operation.
-inline constexpr float kFloatUnit = 0x1p-24F;
 
 /// Bounds |n - n'| of a triangle's normals as a table and as surface_point() compute them (see
 /// shading_facing.cpp).
@@ -127,12 +126,19 @@ struct ShadingBounds {
 struct ShadingTables {
     /// Keeps references; `spheres` are those of CameraTables.
     ShadingTables(const FastScene& scene, const CameraRays& camera,
-                  const BigVector<CameraSphere>& spheres, InstructionSet isa);
+                  const BigVector<CameraSphere>& spheres, InstructionSet isa,
+                  TableFilling triangles = TableFilling::kNow);
+
+    /// For fill_tables(); by several threads at a time.
+    void take(const TriangleChunk& chunk);
+    void take_rounds(Slot, Slot) {}
+    void finish() {}
 
     std::size_t memory_bytes() const;
 
     const FastScene& scene;
     const CameraRays& camera;
+    InstructionSet isa;
     const BigVector<CameraSphere>& spheres;
     ShadingRays rays;
     std::vector<ShadingMaterial> materials;   ///< without repetition

@@ -44,7 +44,6 @@ class ShadowTracer {
     }
 
   private:
-    static constexpr float kRoundoff = 0x1p-24F;
     // More open questions than this are settled at once: they take memory.
     static constexpr std::size_t kMostOpen = 4096;
 
@@ -59,7 +58,8 @@ class ShadowTracer {
             high[axis] = highest(select(there, *at[axis], Floats(-INFINITY)));
         }
         const float error = highest(select(there, block.error(), Floats(0.0F)));
-        const float slack = (error + tables.plane_error()) * (1 + 4 * kRoundoff) + 8 * kRoundoff;
+        const float slack =
+            (error + tables.plane_error()) * (1 + 4 * kFloatRoundoff) + 8 * kFloatRoundoff;
         Mailbox& mailbox = context_.job.mailbox;
         mailbox.start();
         walk_beam(

@@ -65,7 +65,7 @@ class ShadowBlock {
 
   private:
     // Outweighs the roundings of the sum that it multiplies.
-    static constexpr float kRounded = 1 + 4 * 0x1p-24F;
+    static constexpr float kRounded = 1 + 4 * kFloatRoundoff;
 
     HWY_INLINE void test_triangle(const ShadowContext& context, Slot slot, std::uint32_t lanes) {
         const Floats depth = hidden(context.planes[slot], points_);

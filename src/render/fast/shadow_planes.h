@@ -2,22 +2,22 @@
 
 #include "nuvo/render/fast.h"
 #include "shadow_tables.h"
+#include "triangle_chunk.h"
 
 namespace nuvo {
 
-/// The planes of triangles [first, last) as `light` sees them. `reach` bounds the coordinates of
-/// the scene in the local frame.
+/// The planes of triangles as `light` sees them. `reach` bounds the coordinates of the scene in the
+/// local frame.
 struct ShadowPlanesJob {
     const FastScene& scene;
     const LightPoint& light;
     double reach;
-    Slot first;
-    Slot last;
     ShadowPlanes* out;  ///< of slot 0
     const Light& exact_light;
 };
 
-void make_shadow_planes(const ShadowPlanesJob& job, InstructionSet isa);
+/// Makes the records of a chunk.
+void make_shadow_planes(const ShadowPlanesJob& job, const TriangleChunk& chunk, InstructionSet isa);
 
 /// On which side of the triangle's plane the light stands, exactly: the sign of n.(L - a), or of
 /// n.d for a direction d to the light; n = (b - a) x (c - a).

@@ -2,18 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <thread>
 
 #include "nuvo/geometry/predicates.h"
 #include "nuvo/math/error_bounds.h"
+#include "nuvo/math/parallel.h"
 #include "shadow_planes.h"
 
 namespace nuvo {
 namespace {
-
-constexpr double kFloatRoundoff = 0x1p-24;
-// More than what the products of a float stage lose below the normal range.
-constexpr double kFloatUnderflow = 0x1p-120;
 
 // n.P + w with |n|_1 = 1 and |P|, |w| <= reach. Coefficients: one rounding; w + z + y + x: four of
 // a term at most without fused operations; the plane itself is known to one roundoff of 2 reach:
@@ -26,17 +22,6 @@ constexpr double kPlaneRoundings = 16;
 constexpr double kRoundRoundings = 128;
 // A surface that P touches passes within 2 sqrt(3) + 3/4 of P's error. [numerics: shadow ends]
 constexpr double kTouch = 8;
-
-float rounded_up(double value) {
-    return static_cast<float>(value * (1 + 2 * kFloatRoundoff) + kFloatUnderflow);
-}
-
-double largest_coordinate(const Primitives& primitives) {
-    double largest = 0;
-    for (const Bounds3& box : primitives.item_boxes)
-        largest = std::fmax(largest, std::fmax(max_norm(box.min), max_norm(box.max)));
-    return largest;
-}
 
 // The sphere around an ellipsoid, so wide that a point outside is not taken to touch it: touching
 // points have |F| <= R' + (1 + sqrt 2) e |rho| in the terms of numerics: shadow ends, and outside
@@ -74,21 +59,21 @@ LightPoint::LightPoint(const Light& light, const LocalFrame& frame) {
     finite = std::isfinite(norm) && std::isfinite(toward.x + toward.y + toward.z);
 }
 
-ShadowTables::ShadowTables(const FastScene& scene, InstructionSet isa, int threads)
-    : scene_(scene) {
+ShadowTables::ShadowTables(const FastScene& scene, InstructionSet isa, int threads,
+                           TableFilling filling)
+    : scene_(scene), isa_(isa), threads_(threads) {
     const Bounds3T<float>& box = scene.octree().bounds;
     reach_ = std::fmax(max_norm(box.min), max_norm(box.max));
     if (!std::isfinite(reach_)) reach_ = 1;  // an empty scene
     // A surface point's error is at most surface_tolerance() of its primitive's coordinates, where
     // an ellipsoid counts with its reach, at most twice these; and the roundings of the point.
-    touch_ =
-        4 * surface_tolerance() * largest_coordinate(scene.primitives()) * scene.frame().scale +
-        kFloatUnderflow;
-    plane_error_ = rounded_up(kPlaneRoundings * kFloatRoundoff * reach_ + 2 * touch_);
-    round_error_ = rounded_up(kRoundRoundings * kFloatRoundoff * reach_ + kTouch * touch_);
-    const auto nodes = static_cast<double>(scene.octree().nodes.size());
-    leaf_width_ = static_cast<float>(2 * reach_ / std::cbrt(nodes + 1));
-    add_rounds();
+    touch_ = 4 * surface_tolerance() * scene.largest_coordinate() * scene.frame().scale +
+             kFloatUnderflow;
+    plane_error_ =
+        rounded_up(kPlaneRoundings * kFloatRoundoff * reach_ + 2 * touch_ + kFloatUnderflow);
+    round_error_ =
+        rounded_up(kRoundRoundings * kFloatRoundoff * reach_ + kTouch * touch_ + kFloatUnderflow);
+    rounds_.resize(scene.slot_end() - scene.triangle_end());
     const std::vector<Light>& lights = scene.scene().lights;
     const auto casts = [](const Light& light) { return light.casts_shadow; };
     planes_.resize(static_cast<std::size_t>(std::count_if(lights.begin(), lights.end(), casts)) *
@@ -99,71 +84,85 @@ ShadowTables::ShadowTables(const FastScene& scene, InstructionSet isa, int threa
         if (!light.casts_shadow) continue;
         table.first_plane = made;
         made += scene.triangle_end();
-        add_planes(light, table, isa, threads);
-        add_sides(table);
-        table.buffer = LightBuffer(table.light, {scene, rounds_, reach_, round_error_}, isa);
+        if (!outside_of_all(table.light)) table.round_sides.resize(rounds_.size());
+    }
+    if (filling == TableFilling::kNow) fill_tables(scene, threads, *this);
+}
+
+void ShadowTables::take(const TriangleChunk& chunk) {
+    for (std::size_t i = 0; i < tables_.size(); ++i) {
+        const Light& light = scene_.scene().lights[i];
+        if (!light.casts_shadow) continue;
+        const ShadowTable& table = tables_[i];
+        ShadowPlanes* const planes = planes_.data() + table.first_plane;
+        if (table.light.finite)
+            make_shadow_planes({scene_, table.light, reach_, planes, light}, chunk, isa_);
+        else
+            std::fill(planes + chunk.first, planes + chunk.last, ShadowPlanes{});
     }
 }
 
-void ShadowTables::add_planes(const Light& light, const ShadowTable& table, InstructionSet isa,
-                              int threads) {
-    const Slot end = scene_.triangle_end();
-    ShadowPlanes* const planes = planes_.data() + table.first_plane;
-    if (!table.light.finite) {
-        std::fill(planes, planes + end, ShadowPlanes{});
-        return;
+void ShadowTables::take_rounds(Slot first, Slot last) {
+    const std::size_t begin = first - scene_.triangle_end();
+    const std::size_t end = last - scene_.triangle_end();
+    for (Slot slot = first; slot < last; ++slot)
+        rounds_[slot - scene_.triangle_end()] =
+            round_shape(scene_.scene().objects[scene_.source(slot).object].shape);
+    for (ShadowTable& table : tables_) {
+        if (table.round_sides.empty()) continue;
+        for (std::size_t i = begin; i < end; ++i)
+            table.round_sides[i] =
+                table.light.finite ? side(table.light, rounds_[i]) : LightSide::kUnknown;
     }
-    const auto make = [&](Slot first, Slot last) {
-        make_shadow_planes({scene_, table.light, reach_, first, last, planes, light}, isa);
-    };
-    // Fewer triangles than this are done before a thread has started.
-    constexpr Slot kShare = 1 << 13;
-    const Slot share = std::max(kShare, (end + threads - 1) / threads);
-    std::vector<std::jthread> others;
-    for (Slot first = share; first < end; first += share)
-        others.emplace_back(make, first, std::min(end, first + share));
-    make(0, std::min(end, share));
 }
 
-void ShadowTables::add_rounds() {
+void ShadowTables::finish() {
+    for_each_index(threads_, tables_.size(), [&](std::size_t light, int) {
+        ShadowTable& table = tables_[light];
+        if (!scene_.scene().lights[light].casts_shadow) return;
+        table.buffer = LightBuffer(table.light, {scene_, rounds_, reach_, round_error_}, isa_);
+        const auto inside = std::find_if(table.round_sides.begin(), table.round_sides.end(),
+                                         [](LightSide s) { return s != LightSide::kOutside; });
+        if (inside == table.round_sides.end()) table.round_sides.clear();
+    });
+}
+
+RoundShape ShadowTables::round_shape(const Shape& shape) const {
     const LocalFrame& frame = scene_.frame();
-    for (Slot slot = scene_.triangle_end(); slot < scene_.slot_end(); ++slot) {
-        const Shape& shape = scene_.scene().objects[scene_.source(slot).object].shape;
-        Point3 center;
-        double radius = 0;
-        if (const auto* sphere = std::get_if<Sphere>(&shape)) {
-            center = sphere->center;
-            radius = sphere->radius;
-        } else {
-            const auto& ellipsoid = std::get<Ellipsoid>(shape);
-            center = ellipsoid.center;
-            radius = radius_around(ellipsoid, touch_ / frame.scale);
-        }
-        const Point3 local = frame.local(center);
-        rounds_.push_back({{static_cast<float>(local.x), static_cast<float>(local.y),
-                            static_cast<float>(local.z)},
-                           static_cast<float>(radius * frame.scale)});
+    Point3 center;
+    double radius = 0;
+    if (const auto* sphere = std::get_if<Sphere>(&shape)) {
+        center = sphere->center;
+        radius = sphere->radius;
+    } else {
+        const auto& ellipsoid = std::get<Ellipsoid>(shape);
+        center = ellipsoid.center;
+        radius = radius_around(ellipsoid, touch_ / frame.scale);
     }
+    const Vec3<float> local(frame.local(center));
+    return {{local.x, local.y, local.z}, static_cast<float>(radius * frame.scale)};
 }
 
-void ShadowTables::add_sides(ShadowTable& table) const {
-    const LightPoint& light = table.light;
-    if (light.weight == 0 && light.finite) return;
-    std::vector<LightSide> sides(rounds_.size(), LightSide::kUnknown);
-    bool all_outside = true;
-    for (std::size_t i = 0; i < rounds_.size() && light.finite; ++i) {
-        const RoundShape& shape = rounds_[i];
-        const Vector3 from{shape.center[0], shape.center[1], shape.center[2]};
-        const double distance = length(from * light.weight - light.toward);
-        const double radius = shape.radius * light.weight;
-        const double margin = 2 * round_error_ * light.weight + 4 * kFloatRoundoff * radius;
-        if (distance > radius + margin)
-            sides[i] = LightSide::kOutside;
-        else if (distance < radius - margin)
-            sides[i] = LightSide::kInside;
-        all_outside &= sides[i] == LightSide::kOutside;
-    }
-    if (!all_outside || !light.finite) table.round_sides = std::move(sides);
+bool ShadowTables::outside_of_all(const LightPoint& light) const {
+    if (!light.finite) return false;
+    if (light.weight == 0) return true;
+    if (scene_.sphere_end() != scene_.slot_end()) return false;  // what is around them is not in it
+    const Bounds3T<float>& box = scene_.octree().bounds;
+    const double margin = 2 * round_error_ + 8 * kFloatRoundoff * reach_;  // as in side()
+    for (int axis = 0; axis < 3; ++axis)
+        if (light.toward[axis] > (box.max[axis] + margin) * light.weight ||
+            light.toward[axis] < (box.min[axis] - margin) * light.weight)
+            return true;
+    return false;
+}
+
+LightSide ShadowTables::side(const LightPoint& light, const RoundShape& shape) const {
+    const Vector3 from{shape.center[0], shape.center[1], shape.center[2]};
+    const double distance = length(from * light.weight - light.toward);
+    const double radius = shape.radius * light.weight;
+    const double margin = 2 * round_error_ * light.weight + 4 * kFloatRoundoff * radius;
+    if (distance > radius + margin) return LightSide::kOutside;
+    return distance < radius - margin ? LightSide::kInside : LightSide::kUnknown;
 }
 
 std::size_t ShadowTables::memory_bytes() const {

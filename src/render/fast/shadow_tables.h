@@ -3,11 +3,12 @@
 #include <cstdint>
 #include <vector>
 
-#include "big_vector.h"
 #include "fast_scene.h"
 #include "light_buffer.h"
+#include "nuvo/math/big_vector.h"
 #include "nuvo/render/fast.h"
 #include "shadow_geometry.h"
+#include "triangle_chunk.h"
 
 namespace nuvo {
 
@@ -15,15 +16,21 @@ struct ShadowTable {
     explicit ShadowTable(const LightPoint& from) : light(from) {}
 
     LightPoint light;
-    std::size_t first_plane = 0;  ///< where its planes begin among those of all lights
+    std::size_t first_plane = 0;       ///< where its planes begin among those of all lights
+    BigVector<LightSide> round_sides;  ///< of slots from triangle_end on; empty: all outside
     LightBuffer buffer;
-    std::vector<LightSide> round_sides;  ///< of slots from triangle_end on; empty: all outside
 };
 
 /// What the shadow stage needs of scene and lights, shared by all threads.
 class ShadowTables {
   public:
-    ShadowTables(const FastScene& scene, InstructionSet isa, int threads = 1);
+    ShadowTables(const FastScene& scene, InstructionSet isa, int threads = 1,
+                 TableFilling triangles = TableFilling::kNow);
+
+    /// For fill_tables(); by several threads at a time.
+    void take(const TriangleChunk& chunk);
+    void take_rounds(Slot first, Slot last);
+    void finish();
 
     const FastScene& scene() const { return scene_; }
     /// Of light i; empty where it casts no shadow.
@@ -43,23 +50,22 @@ class ShadowTables {
     /// but for twice P's own error; with a margin in which round shapes count as touched.
     float round_error() const { return round_error_; }
 
-    /// How wide a node would be if all were cubes side by side: about what a beam may be thick.
-    float leaf_width() const { return leaf_width_; }
-
     std::size_t memory_bytes() const;
 
   private:
-    void add_planes(const Light& light, const ShadowTable& table, InstructionSet isa, int threads);
-    void add_rounds();
-    void add_sides(ShadowTable& table) const;
+    /// Whether the light is a direction or stands where the scene surely does not reach.
+    bool outside_of_all(const LightPoint& light) const;
+    RoundShape round_shape(const Shape& shape) const;
+    LightSide side(const LightPoint& light, const RoundShape& shape) const;
 
     const FastScene& scene_;
+    InstructionSet isa_;
+    int threads_;
     double reach_;  // largest |coordinate| of the scene's box in the local frame
     double touch_;  // bounds SurfacePoint::error, in the local frame
-    float leaf_width_;
     float plane_error_;
     float round_error_;
-    std::vector<RoundShape> rounds_;
+    BigVector<RoundShape> rounds_;
     std::vector<ShadowTable> tables_;
     BigVector<ShadowPlanes> planes_;
 };

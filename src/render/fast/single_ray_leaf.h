@@ -26,7 +26,7 @@ namespace nuvo::HWY_NAMESPACE {
 
 inline constexpr float kReach = 0x1p16F + 0x1p14F;
 inline constexpr float kCorner = 0.5625F;
-static_assert(kCornerRounding + 0x1p-6 + 4 * 0x1p-24 * kReach < kCorner);
+static_assert(kCornerRounding + 0x1p-6 + 4 * kFloatRoundoff * kReach < kCorner);
 
 /// What is known of 16 primitives: [low, high] bounds the hit's parameter where it is met.
 struct LeafHits {
@@ -97,7 +97,7 @@ struct RayAtLeaf {
         // A product with a power of two, a sum, and the sums here: 4 roundings.
         const Floats s = mul_add(along, Floats(unit), Floats(entry));
         const Floats slack =
-            mul_add(error, Floats(unit), (abs(s) + Floats(entry)) * Floats(4 * kFloatUnit));
+            mul_add(error, Floats(unit), (abs(s) + Floats(entry)) * Floats(4 * kFloatRoundoff));
         hits.low = s - slack;
         hits.high = s + slack;
     }
@@ -141,8 +141,8 @@ HWY_INLINE LeafHits test_triangles(const RayAtLeaf& ray, const std::uint16_t* co
     const Floats v = -dot(a, dc);
     const Floats w = dot(a, cross(d, b));
     constexpr float kEdge =
-        4 * kCorner * kReach + 2 * kCorner * kCorner + 18 * kFloatUnit * kReach * kReach;
-    const Floats edge_error(scale * kEdge * (1 + 8 * kFloatUnit) * ray.direction_sum);
+        4 * kCorner * kReach + 2 * kCorner * kCorner + 18 * kFloatRoundoff * kReach * kReach;
+    const Floats edge_error(scale * kEdge * (1 + 8 * kFloatRoundoff) * ray.direction_sum);
     const Floats least = min(u, min(v, w));
     const Floats most = max(u, max(v, w));
     const RayMask inside = (least > edge_error) | (most < -edge_error);
@@ -165,8 +165,8 @@ HWY_INLINE LeafHits test_triangles(const RayAtLeaf& ray, const std::uint16_t* co
     const RayMask crossing = share < Floats(0.5F);
     // Room for the roundings of the bound itself, and of the product above.
     const Floats error = mul_add(abs(along), slope_error, height_error) * abs(inverse) *
-                             mul_add(share, Floats(2.0F), Floats(1 + 16 * kFloatUnit)) +
-                         abs(along) * Floats(4 * kFloatUnit);
+                             mul_add(share, Floats(2.0F), Floats(1 + 16 * kFloatRoundoff)) +
+                         abs(along) * Floats(4 * kFloatRoundoff);
     ray.set_interval(hits, along, error);
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
     hits.low = select(crossing, hits.low, Floats(-kInfinity));
@@ -197,10 +197,10 @@ HWY_INLINE LeafHits test_spheres(const RayAtLeaf& ray, const float* values, std:
                         mul_add(middle, d.z, f.z)};
     const Floats across = dot(l, l);
     const Floats depth = mul_add(r, r, -across);
-    const Floats error = mul_add(sum(f), Floats(scale * 32 * kFloatUnit),
-                                 Floats(scale * (8 * kFloatUnit + ray.point_error)));
+    const Floats error = mul_add(sum(f), Floats(scale * 32 * kFloatRoundoff),
+                                 Floats(scale * (8 * kFloatRoundoff + ray.point_error)));
     const Floats depth_error = mul_add(mul_add(sum(l), Floats(2.0F), error * Floats(3.0F)), error,
-                                       mul_add(r, r, across) * Floats(scale * 16 * kFloatUnit));
+                                       mul_add(r, r, across) * Floats(scale * 16 * kFloatRoundoff));
     const RayMask meets = depth > depth_error;
     const RayMask misses = depth < -depth_error;
     LeafHits hits = LeafHits::none();
@@ -208,10 +208,11 @@ HWY_INLINE LeafHits test_spheres(const RayAtLeaf& ray, const float* values, std:
     const Floats half = sqrt(max(depth, Floats(0.0F)) * inverse);
     // sqrt(depth +- error) differs by less than error / sqrt(depth); |d| >= 1.
     const Floats half_error =
-        select(meets, depth_error / (half * Floats(ray.square)) + half * Floats(8 * kFloatUnit),
+        select(meets, depth_error / (half * Floats(ray.square)) + half * Floats(8 * kFloatRoundoff),
                sqrt(depth_error + depth_error));
-    const Floats slack = half_error + error +
-                         (abs(middle) + Floats(ray.entry) + half) * Floats(scale * 8 * kFloatUnit);
+    const Floats slack =
+        half_error + error +
+        (abs(middle) + Floats(ray.entry) + half) * Floats(scale * 8 * kFloatRoundoff);
     const Floats near = Floats(ray.entry) + (middle - half);
     const Floats far = Floats(ray.entry) + (middle + half);
     const Floats behind(ray.behind);

@@ -7,6 +7,7 @@
 #endif
 
 #include "fast/lanes.h"
+#include "nuvo/math/error_bounds.h"
 
 // Roots, powers and arcs of 16 floats at a time: range reduction by bits, then a polynomial (Muller
 // 2016, "Elementary Functions", chapters 3 and 11). The coefficients are near-minimax, by
@@ -15,13 +16,11 @@
 HWY_BEFORE_NAMESPACE();
 namespace nuvo::HWY_NAMESPACE {
 
-inline constexpr float kUnit = 0x1p-24F;
-
 /// 1 / sqrt(v) within kInverseSqrtError, relatively, of normal floats; of 0 infinite or NaN.
 /// AVX-512's estimate e is within 2^-14: one Newton step leaves 1.5 * 2^-28, and the residual
 /// 1 - v e e, whose two roundings count by half, and the last sum 2 u. Elsewhere: a root and a
 /// quotient, each correctly rounded.
-inline constexpr float kInverseSqrtError = 2.2F * kUnit;
+inline constexpr float kInverseSqrtError = 2.2F * kFloatRoundoff;
 HWY_INLINE Floats inverse_sqrt(const Floats& v) {
 #if HWY_TARGET == HWY_AVX3
     Floats out;
@@ -39,7 +38,7 @@ HWY_INLINE Floats inverse_sqrt(const Floats& v) {
 
 /// 1 / v within kReciprocalError, relatively, of floats with normal reciprocals: the same with
 /// AVX-512's estimate of the reciprocal, whose step leaves 2^-28; elsewhere a quotient.
-inline constexpr float kReciprocalError = 1.2F * kUnit;
+inline constexpr float kReciprocalError = 1.2F * kFloatRoundoff;
 HWY_INLINE Floats reciprocal(const Floats& v) {
 #if HWY_TARGET == HWY_AVX3
     Floats out;
@@ -65,7 +64,7 @@ HWY_INLINE Floats polynomial(const float (&coefficients)[kCount], const Floats& 
 /// z would lose z's digits. log2(m 2^k) = k + f P(f), f = m - 1 = -z if k = 0, is within 3 u
 /// relatively, the product y with the exponent 4 u; 2^y sees it times y ln 2, and 2^y |y| ln 2 <=
 /// 0.37: 1.5 u; its own polynomial and scaling add 3 u. Below 2^-125 the result stays there.
-inline constexpr float kPowerError = 6 * kUnit;
+inline constexpr float kPowerError = 6 * kFloatRoundoff;
 HWY_INLINE Floats power_of_complement(const Floats& z, const Floats& exponent) {
     // log2(1 + f) / f on sqrt(1/2) - 1 .. sqrt(2) - 1, within 2^-27.6
     static constexpr float kLog[] = {
@@ -102,7 +101,7 @@ HWY_INLINE Floats power_of_complement(const Floats& z, const Floats& exponent) {
 /// over 4 * 10^6 numbers): pi / 2 - asin(x), near the ends 2 asin(sqrt((1 - |x|) / 2)), where 1 -
 /// |x| is exact. asin(s) / s is a polynomial in s^2 <= 1/4, within 2^-27.6. Of results near pi:
 /// pi's rounding 1.5 u, two differences of 2 u, and twice the arc's.
-inline constexpr float kArcError = 8 * kUnit;
+inline constexpr float kArcError = 8 * kFloatRoundoff;
 HWY_INLINE Floats arc_cosine(const Floats& x) {
     static constexpr float kArcSine[] = {0.999999995984F,  0.166667820058F,  0.0749469668742F,
                                          0.0455206356317F, 0.0239939996536F, 0.0424173737598F};

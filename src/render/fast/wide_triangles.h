@@ -8,40 +8,13 @@
 
 #include <cstddef>
 
-#include "fast/lanes.h"
 #include "fast/shading_tables.h"
+#include "fast/wide_vectors.h"
 
-// Vectors of 8 doubles, one for each of 8 triangles, and the functions of a smooth triangle.
+// The functions of smooth triangles, 8 at a time.
 
 HWY_BEFORE_NAMESPACE();
 namespace nuvo::HWY_NAMESPACE {
-
-inline constexpr std::size_t kBatch = 8;
-using Wide = Lanes<double, kBatch>;
-
-HWY_INLINE void store_rounded(const Wide& v, float* to) {
-    constexpr std::size_t kPart = Wide::Shape::kPart;
-    const hn::FixedTag<float, kPart> floats;
-    for (std::size_t i = 0; i < Wide::Shape::kParts; ++i)
-        hn::StoreU(hn::DemoteTo(floats, v.part[i]), floats, to + i * kPart);
-}
-
-struct Wide3 {
-    Wide x, y, z;
-};
-HWY_INLINE Wide3 wide(const Vector3& v) { return {Wide(v.x), Wide(v.y), Wide(v.z)}; }
-HWY_INLINE Wide3 operator+(const Wide3& a, const Wide3& b) {
-    return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-HWY_INLINE Wide3 operator-(const Wide3& a, const Wide3& b) {
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-HWY_INLINE Wide3 operator*(const Wide3& a, const Wide& s) { return {a.x * s, a.y * s, a.z * s}; }
-HWY_INLINE Wide3 cross(const Wide3& a, const Wide3& b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-HWY_INLINE Wide dot(const Wide3& a, const Wide3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-HWY_INLINE Wide norm1(const Wide3& a) { return abs(a.x) + abs(a.y) + abs(a.z); }
 
 /// Triangles in the local frame.
 struct WideTriangles {
@@ -60,7 +33,7 @@ class SmoothFunctions {
     HWY_INLINE SmoothFunctions(const CameraRays& camera, double longest, const WideTriangles& t,
                                const Wide3& n0, const Wide3& n1, const Wide3& n2,
                                const Wide& sign) {
-        const Wide largest = max(largest_of(n0), max(largest_of(n1), largest_of(n2)));
+        const Wide largest = max(max_norm(n0), max(max_norm(n1), max_norm(n2)));
         const Wide3 s = cross(t.e2, t.e1);
         const Wide3 v = cross(t.from, t.e2);
         const Wide3 w = cross(t.e1, t.from);
@@ -76,7 +49,7 @@ class SmoothFunctions {
         const Wide x = pixel(center, camera.right, depth, camera.resolution.width);
         const Wide y = pixel(center, camera.down, depth, camera.resolution.height);
         const Wide3 at = along(camera.forward) + right * x + down * y;
-        const Wide scale = sign / largest_of(at);
+        const Wide scale = sign / max_norm(at);
         const Wide edges = norm1(t.e1) + norm1(t.e2);
         const Wide noise = (norm1(t.from) + edges) * edges * largest * Wide(8 * 0x1p-49 * longest);
         put(at * scale, 0);
@@ -85,7 +58,7 @@ class SmoothFunctions {
         store_rounded(x, values_[9]);
         store_rounded(y, values_[10]);
         // Of each sum in float: the coefficients' rounding, and 3 of the two operations.
-        const Wide roundings = abs(scale) * Wide(4.1 * static_cast<double>(kFloatUnit));
+        const Wide roundings = abs(scale) * Wide(4.1 * static_cast<double>(kFloatRoundoff));
         store_rounded(mul_add(roundings, size_of(at), abs(scale) * noise), values_[11]);
         store_rounded(roundings * size_of(right), values_[12]);
         store_rounded(roundings * size_of(down), values_[13]);
@@ -105,9 +78,6 @@ class SmoothFunctions {
     }
 
   private:
-    static HWY_INLINE Wide largest_of(const Wide3& v) {
-        return max(abs(v.x), max(abs(v.y), abs(v.z)));
-    }
     // The coordinate at which the point is seen, an integer; at most the picture's size.
     static HWY_INLINE Wide pixel(const Wide3& point, const Vector3& axis, const Wide& depth,
                                  int size) {

@@ -1,16 +1,27 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
 #include <new>
 #include <utility>
 #include <vector>
 
-#if defined(__linux__)
-#include <sys/mman.h>
-#endif
-
 namespace nuvo {
+
+/// While one of these lives, freed blocks of many megabytes stay with the process and are handed
+/// out again: the system would have to fill them with zeros first, which takes as long as to make
+/// a table. Held by a tracer, whose frames need the same blocks one after another, and the first
+/// one those of the octree's construction.
+class BlockKeeper {
+  public:
+    BlockKeeper();
+    ~BlockKeeper();
+    BlockKeeper(const BlockKeeper&) = delete;
+    BlockKeeper& operator=(const BlockKeeper&) = delete;
+};
+
+/// Memory aligned to 64 bytes, for a multiple of megabytes to a large page.
+void* allocate_block(std::size_t bytes);
+void free_block(void* at, std::size_t bytes) noexcept;
 
 /// For tables of many megabytes that are read all over: asks the system for large pages, which
 /// spares it most page faults and the processor most address look-ups; and leaves the elements
@@ -18,24 +29,13 @@ namespace nuvo {
 template <typename T>
 struct BigAllocator {
     using value_type = T;
-    static constexpr std::size_t kLargePage = std::size_t{1} << 21;
 
     BigAllocator() = default;
     template <typename U>
     BigAllocator(const BigAllocator<U>&) {}  // NOLINT(google-explicit-constructor): an allocator
 
-    T* allocate(std::size_t n) {
-        const std::size_t bytes = n * sizeof(T);
-        void* const at = ::operator new(bytes, alignment(bytes));
-#if defined(__linux__)
-        if (bytes >= kLargePage) madvise(at, bytes, MADV_HUGEPAGE);  // a wish, no more
-#endif
-        return static_cast<T*>(at);
-    }
-    void deallocate(T* at, std::size_t n) {
-        const std::size_t bytes = n * sizeof(T);
-        ::operator delete(at, alignment(bytes));
-    }
+    T* allocate(std::size_t n) { return static_cast<T*>(allocate_block(n * sizeof(T))); }
+    void deallocate(T* at, std::size_t n) { free_block(at, n * sizeof(T)); }
     /// No value given: none written.
     template <typename U>
     void construct(U* at) {
@@ -46,11 +46,6 @@ struct BigAllocator {
         ::new (static_cast<void*>(at)) U(std::forward<Arguments>(arguments)...);
     }
     friend bool operator==(const BigAllocator&, const BigAllocator&) { return true; }
-
-  private:
-    static std::align_val_t alignment(std::size_t bytes) {
-        return std::align_val_t{bytes >= kLargePage ? kLargePage : std::size_t{64}};
-    }
 };
 
 /// T should be trivial; resize() leaves its members unset.

@@ -1,0 +1,92 @@
+#include "nuvo/math/big_vector.h"
+
+#include <algorithm>
+#include <bit>
+#include <mutex>
+
+#if defined(__linux__)
+#include <sys/mman.h>
+#endif
+
+namespace nuvo {
+namespace {
+
+constexpr std::size_t kLargePage = std::size_t{1} << 21;
+constexpr std::align_val_t kLineAlignment{64};
+constexpr std::align_val_t kPageAlignment{kLargePage};
+
+// Blocks that wait for their next use. Sizes are powers of two, so that blocks of about the same
+// size do for each other; pages that are never touched cost nothing.
+class KeptBlocks {
+  public:
+    void add_keeper() {
+        const std::lock_guard lock(mutex_);
+        ++keepers_;
+    }
+    void drop_keeper() {
+        const std::lock_guard lock(mutex_);
+        if (--keepers_ > 0) return;
+        for (const Block& block : blocks_) ::operator delete(block.at, kPageAlignment);
+        blocks_.clear();
+    }
+
+    void* take(std::size_t size) {
+        const std::lock_guard lock(mutex_);
+        // The last one: it is most likely still in a cache.
+        const auto found = std::find_if(blocks_.rbegin(), blocks_.rend(),
+                                        [&](const Block& block) { return block.size == size; });
+        if (found == blocks_.rend()) return nullptr;
+        void* const at = found->at;
+        blocks_.erase(std::prev(found.base()));
+        return at;
+    }
+    /// False: to be freed.
+    bool keep(void* at, std::size_t size) noexcept {
+        const std::lock_guard lock(mutex_);
+        if (keepers_ == 0) return false;
+        try {
+            blocks_.push_back({at, size});
+        } catch (const std::bad_alloc&) {
+            return false;
+        }
+        return true;
+    }
+
+  private:
+    struct Block {
+        void* at;
+        std::size_t size;
+    };
+
+    std::mutex mutex_;
+    int keepers_ = 0;
+    std::vector<Block> blocks_;
+};
+
+KeptBlocks& kept_blocks() {
+    static KeptBlocks blocks;
+    return blocks;
+}
+
+}  // namespace
+
+BlockKeeper::BlockKeeper() { kept_blocks().add_keeper(); }
+BlockKeeper::~BlockKeeper() { kept_blocks().drop_keeper(); }
+
+void* allocate_block(std::size_t bytes) {
+    if (bytes < kLargePage) return ::operator new(bytes, kLineAlignment);
+    const std::size_t size = std::bit_ceil(bytes);
+    if (void* const kept = kept_blocks().take(size)) return kept;
+    void* const at = ::operator new(size, kPageAlignment);
+#if defined(__linux__)
+    madvise(at, size, MADV_HUGEPAGE);  // a wish, no more
+#endif
+    return at;
+}
+
+void free_block(void* at, std::size_t bytes) noexcept {
+    if (bytes < kLargePage) return ::operator delete(at, kLineAlignment);
+    if (!kept_blocks().keep(at, std::bit_ceil(bytes))) ::operator delete(at, kPageAlignment);
+}
+
+}  // namespace nuvo

@@ -1,0 +1,149 @@
+#include "fast/triangle_chunk.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstring>
+#include <random>
+
+#include "fast/camera_tables.h"
+#include "fast/dispatch.h"
+#include "fast/shading_tables.h"
+#include "fast/shadow_tables.h"
+
+namespace nuvo {
+namespace {
+
+// Meshes of one to five triangles and some of hundreds, in no order, and spheres between them.
+Scene scene_of_many_meshes(unsigned seed) {
+    std::mt19937 engine(seed);
+    std::uniform_real_distribution<double> place(-1, 1);
+    const auto point = [&] { return Point3{place(engine), place(engine), place(engine)}; };
+    Scene scene;
+    scene.materials.emplace_back();
+    for (int i = 0; i < 300; ++i) {
+        if (i % 7 == 3) {
+            scene.objects.push_back({Sphere{point(), 0.1}});
+            continue;
+        }
+        TriangleMesh mesh;
+        const std::size_t count = i % 50 == 0 ? 300 : 1 + engine() % 5;
+        for (std::size_t k = 0; k < count + 2; ++k) mesh.positions.push_back(point());
+        for (std::uint32_t k = 0; k < count; ++k) mesh.triangles.push_back({k + 2, k, k + 1});
+        scene.objects.push_back({mesh});
+    }
+    Light sun;
+    sun.direction = {0.6, 0, -0.8};
+    Light lamp;
+    lamp.kind = Light::Kind::kPoint;
+    lamp.location = {0.2, 0.3, 0.1};  // within the scene: shapes are on both sides
+    for (Light* light : {&sun, &lamp}) {
+        light->casts_shadow = true;
+        scene.lights.push_back(*light);
+    }
+    scene.camera.position = {0, 0, 3};
+    return scene;
+}
+
+class TriangleChunkTest : public testing::Test {
+  protected:
+    static constexpr unsigned kSeed = 5;
+    Scene scene_ = scene_of_many_meshes(kSeed);
+    Primitives primitives_ = flatten(scene_, LeafContent::kPrimitives);
+    FastScene fast_{scene_, primitives_, OctreeType::kUniform, 1};
+};
+
+TEST_F(TriangleChunkTest, BringsEveryTriangleOnceInItsPlace) {
+    for (const int threads : {1, 2, 7}) {
+        std::vector<std::atomic<int>> met(fast_.triangle_end());
+        std::atomic<int> wrong = 0;
+        for_each_chunk(fast_, threads, [&](const TriangleChunk& chunk) {
+            chunk.for_each_batch([&](const TriangleBatch& batch, Slot first, std::size_t count) {
+                for (std::size_t i = 0; i < TriangleBatch::kSize; ++i) {
+                    // Beyond the last one the first one again.
+                    const Slot slot = first + static_cast<Slot>(i < count ? i : 0);
+                    const PrimitiveSource& source = fast_.source(slot);
+                    const auto& mesh = std::get<TriangleMesh>(scene_.objects[source.object].shape);
+                    const Triangle expected = mesh.triangle(source.triangle);
+                    const Triangle found = batch.triangle(i);
+                    wrong += found.a == expected.a && found.b == expected.b && found.c == expected.c
+                                 ? 0
+                                 : 1;
+                    if (i < count) ++met[slot];
+                }
+            });
+        });
+        EXPECT_EQ(wrong, 0) << "seed " << kSeed << ", threads " << threads;
+        for (const auto& times : met) ASSERT_EQ(times, 1) << "seed " << kSeed;
+    }
+}
+
+TEST_F(TriangleChunkTest, BringsEveryRoundShapeOnce) {
+    for (const int threads : {1, 3}) {
+        std::vector<std::atomic<int>> met(fast_.slot_end());
+        for_each_round_part(fast_, threads, [&](Slot first, Slot last) {
+            for (Slot slot = first; slot < last; ++slot) ++met[slot];
+        });
+        for (Slot slot = 0; slot < fast_.slot_end(); ++slot)
+            ASSERT_EQ(met[slot], slot < fast_.triangle_end() ? 0 : 1);
+    }
+}
+
+template <typename Table>
+bool same_bytes(const Table& a, const Table& b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(a[0])) == 0;
+}
+
+TEST_F(TriangleChunkTest, TablesDoNotDependOnWhenAndByHowManyTheyAreFilled) {
+    const CameraRays rays(scene_.camera, {64, 48}, fast_.frame());
+    const InstructionSet isa = resolved(InstructionSet::kBest);
+    const CameraTables camera(fast_, rays, isa);
+    const ShadowTables shadow(fast_, isa);
+    const ShadingTables shading(fast_, rays, camera.spheres, isa);
+    for (const int threads : {1, 2, 7}) {
+        CameraTables camera_later(fast_, rays, isa, threads, TableFilling::kLater);
+        ShadowTables shadow_later(fast_, isa, threads, TableFilling::kLater);
+        ShadingTables shading_later(fast_, rays, camera_later.spheres, isa, TableFilling::kLater);
+        fill_tables(fast_, threads, camera_later, shadow_later, shading_later);
+        EXPECT_TRUE(same_bytes(camera.triangles, camera_later.triangles));
+        ASSERT_EQ(camera.spheres.size(), camera_later.spheres.size());
+        for (std::size_t i = 0; i < camera.spheres.size(); ++i) {
+            EXPECT_EQ(camera.spheres[i].radius, camera_later.spheres[i].radius);
+            EXPECT_EQ(camera.spheres[i].inverse_power, camera_later.spheres[i].inverse_power);
+        }
+        for (std::size_t light = 0; light < scene_.lights.size(); ++light) {
+            EXPECT_EQ(std::memcmp(shadow.planes(light), shadow_later.planes(light),
+                                  fast_.triangle_end() * sizeof(ShadowPlanes)),
+                      0);
+            EXPECT_TRUE(
+                same_bytes(shadow.table(light).round_sides, shadow_later.table(light).round_sides));
+            EXPECT_TRUE(
+                same_bytes(shading.lights[light].facing, shading_later.lights[light].facing));
+        }
+    }
+}
+
+TEST_F(TriangleChunkTest, SidesOfALightAreKnownWhereItStandsWithinTheScene) {
+    const ShadowTables tables(fast_, resolved(InstructionSet::kBest));
+    EXPECT_TRUE(tables.table(0).round_sides.empty());  // a direction is outside of all
+    const Point3& lamp = scene_.lights[1].location;
+    for (Slot slot = fast_.triangle_end(); slot < fast_.slot_end(); ++slot) {
+        const auto& sphere = std::get<Sphere>(scene_.objects[fast_.source(slot).object].shape);
+        const double gap = length(sphere.center - lamp) - sphere.radius;
+        if (std::fabs(gap) < 1e-3) continue;  // may be unknown
+        const auto& sides = tables.table(1).round_sides;
+        const LightSide side =
+            sides.empty() ? LightSide::kOutside : sides[slot - fast_.triangle_end()];
+        EXPECT_EQ(side, gap > 0 ? LightSide::kOutside : LightSide::kInside);
+    }
+}
+
+TEST_F(TriangleChunkTest, ALightWithinASphereIsInsideOfIt) {
+    scene_.lights[1].location = std::get<Sphere>(scene_.objects[3].shape).center;
+    const ShadowTables tables(fast_, resolved(InstructionSet::kBest));
+    ASSERT_FALSE(tables.table(1).round_sides.empty());
+    EXPECT_EQ(tables.table(1).round_sides[0], LightSide::kInside);
+}
+
+}  // namespace
+}  // namespace nuvo
