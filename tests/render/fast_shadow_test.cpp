@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "exact_kernel.h"
+#include "fast/dispatch.h"
 #include "fast/shadow.h"
 #include "nuvo/render/render.h"
 #include "nuvo/render/shading.h"
@@ -199,6 +200,64 @@ TEST(FastShadowsOfTheGrid, ReachThePixelsThatTheExactProfileLights) {
     scene.lights[4].location = {2, 2, 2.5};  // inside of a sphere
     scene.camera.position = {3, 1, 25};
     expect_exact(scene, {64, 64}, "grid");
+}
+
+/// The least of a triangle's four functions, in float.
+float hidden(const ShadowPlanes& planes, const float (&p)[3]) {
+    float least = std::numeric_limits<float>::infinity();
+    for (const auto& n : planes.plane)
+        least = std::fmin(least, n[0] * p[0] + (n[1] * p[1] + (n[2] * p[2] + n[3])));
+    return least;
+}
+
+/// A point near the border of what `triangle` hides from the light, or within.
+Point3 behind(std::mt19937_64& random, const Triangle& t, const Light& light) {
+    const double v = uniform(random, 0, 1) < 0.5 ? 0 : uniform(random, 0, 1);
+    const double w = uniform(random, 0, 1) < 0.5 ? 1 - v : uniform(random, 0, 1 - v);
+    const Point3 on_it = t.a + (t.b - t.a) * v + (t.c - t.a) * w;
+    const Vector3 away =
+        light.kind == Light::Kind::kDirectional ? light.direction : on_it - light.location;
+    const double steps = std::exp2(uniform(random, -30, 0));
+    return on_it + normalized(away) * steps +
+           uniform_point(random, 1) * std::exp2(uniform(random, -40, -2));
+}
+
+TEST(ShadowPlanes, NeverContradictTheExactPredicateWhereTheyAreSure) {
+    for (unsigned seed = 1; seed <= 4; ++seed) {
+        std::mt19937_64 random(seed);
+        Scene scene = testing::random_scene(seed, 60);
+        scene.lights = hard_lights(random, scene);
+        const Primitives primitives = flatten(scene, LeafContent::kPrimitives);
+        const FastScene fast(scene, primitives, OctreeType::kUniform, 1);
+        const ShadowTables tables(fast, resolved(InstructionSet::kBest));
+        StageCounts counts;
+        int sure[2] = {};
+        for (int i = 0; i < 40000; ++i) {
+            const std::size_t l = random() % scene.lights.size();
+            const Light& light = scene.lights[l];
+            const auto slot = static_cast<Slot>(random() % fast.triangle_end());
+            const PrimitiveSource& source = fast.source(slot);
+            const auto& mesh = std::get<TriangleMesh>(scene.objects[source.object].shape);
+            const Triangle triangle = mesh.triangle(source.triangle);
+            const Point3 point = behind(random, triangle, light);
+            const Point3 local = fast.frame().local(point);
+            if (max_norm(local) > 1) continue;  // the bounds are those of the scene's box
+            const float p[3] = {static_cast<float>(local.x), static_cast<float>(local.y),
+                                static_cast<float>(local.z)};
+            const float error = tables.plane_error() + static_cast<float>(2 * kFloatRoundoff);
+            const float depth = hidden(tables.planes(l)[slot], p);
+            if (std::fabs(depth) <= error) continue;
+            const bool endless = light.kind == Light::Kind::kDirectional;
+            const ExactRay way = endless ? ExactRay(Ray{point, -light.direction})
+                                         : ExactRay::between(point, light.location);
+            const double end = endless ? std::numeric_limits<double>::infinity() : 1;
+            ASSERT_EQ(depth > 0, blocks(way, end, 0, triangle, counts))
+                << "seed " << seed << ", pair " << i << ", light " << l;
+            ++sure[depth > 0 ? 1 : 0];
+        }
+        EXPECT_GT(sure[0], 1000);
+        EXPECT_GT(sure[1], 1000);
+    }
 }
 
 TEST(FastShadowsOfALightAlone, AreNoneWhereNothingCastsThem) {

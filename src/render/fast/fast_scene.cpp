@@ -116,6 +116,11 @@ OctantTest octant_test(const LocalItems& items) {
     };
 }
 
+CompactOctree octree_of(const LocalItems& items, CompactBuildOptions options) {
+    options.overlaps = octant_test(items);
+    return build_compact_octree(items.boxes, options);
+}
+
 }  // namespace
 
 FastScene::FastScene(const Scene& scene, const Primitives& primitives, OctreeType type, int threads)
@@ -141,13 +146,13 @@ FastScene::FastScene(const Scene& scene, const Primitives& primitives, OctreeTyp
     CompactBuildOptions options;
     options.rule = type == OctreeType::kUniform ? CutRule::kSpatial : CutRule::kSweep;
     options.threads = threads;
-    octree_ = octree(options);
+    LocalItems items = LocalItemsMaker(*this).make(options.threads);
+    octree_ = octree_of(items, options);
+    triangles_ = std::move(items.triangles);
 }
 
-CompactOctree FastScene::octree(CompactBuildOptions options) const {
-    const LocalItems items = LocalItemsMaker(*this).make(options.threads);
-    options.overlaps = octant_test(items);
-    return build_compact_octree(items.boxes, options);
+CompactOctree FastScene::octree(const CompactBuildOptions& options) const {
+    return octree_of(LocalItemsMaker(*this).make(options.threads), options);
 }
 
 }  // namespace nuvo

@@ -3,11 +3,13 @@
 #include <cstdint>
 #include <vector>
 
+#include "nuvo/math/big_vector.h"
 #include "nuvo/math/bounds.h"
 #include "nuvo/octree/compact_build.h"
 #include "nuvo/render/fast.h"
 #include "nuvo/render/primitives.h"
 #include "nuvo/scene/scene.h"
+#include "octant_tests.h"
 
 namespace nuvo {
 
@@ -43,7 +45,7 @@ class FastScene {
     double largest_coordinate() const { return largest_coordinate_; }
     const CompactOctree& octree() const { return octree_; }
     /// Another one; `overlaps` of the options is filled in.
-    CompactOctree octree(CompactBuildOptions options) const;
+    CompactOctree octree(const CompactBuildOptions& options) const;
 
     Slot triangle_end() const { return triangle_end_; }
     Slot sphere_end() const { return sphere_end_; }
@@ -60,6 +62,8 @@ class FastScene {
         __builtin_prefetch(soon);
         __builtin_prefetch(reinterpret_cast<const char*>(soon + 1) - 1);
     }
+    /// Corners rounded to nearest, by slot.
+    const BigVector<LocalTriangle>& triangles() const { return triangles_; }
 
   private:
     const Scene& scene_;
@@ -70,6 +74,7 @@ class FastScene {
     Slot sphere_end_ = 0;
     Slot slot_end_ = 0;
     std::vector<PrimitiveId> ids_;  // empty: the same order
+    BigVector<LocalTriangle> triangles_;
     CompactOctree octree_;
 };
 

@@ -86,14 +86,12 @@ class Frame::Worker {
         clock.add_to(spent.primary);
         if (hit_anything()) {
             shading_.surface(tile_);
-            const std::vector<Light>& lights = scene_.scene().lights;
-            for (std::size_t light = 0; light < lights.size(); ++light) {
+            for (std::size_t light = 0; light < scene_.scene().lights.size(); ++light) {
                 TileMask wanted;
                 shading_.sample(tile_, light, wanted);
                 clock.add_to(spent.shading);
                 TileMask lit;
-                std::copy(std::begin(wanted), std::end(wanted), std::begin(lit));
-                if (lights[light].casts_shadow) shadow_.trace(tile_, light, wanted, referee_, lit);
+                shadow_.trace(tile_, light, wanted, referee_, lit);
                 clock.add_to(spent.shadow);
                 shading_.add(light, lit);
             }

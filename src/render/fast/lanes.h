@@ -151,6 +151,12 @@ struct Lanes : LaneShape<T, N> {
         }
         return v;
     }
+    /// Lane i of the four results: from[4 i], from[4 i + 1], from[4 i + 2], from[4 i + 3].
+    static HWY_INLINE void load_by_fours(const T* from, Lanes& a, Lanes& b, Lanes& c, Lanes& d) {
+        for (std::size_t i = 0; i < Shape::kParts; ++i)
+            hn::LoadInterleaved4(Tag(), from + 4 * i * Shape::kPart, a.part[i], b.part[i],
+                                 c.part[i], d.part[i]);
+    }
     HWY_INLINE void store(T* to) const {
         for (std::size_t i = 0; i < Shape::kParts; ++i)
             hn::StoreU(part[i], Tag(), to + i * Shape::kPart);
@@ -295,6 +301,16 @@ HWY_INLINE LaneMask<To, N> mask_for(const LaneMask<From, N>& mask) requires(size
     return out;
 }
 
+/// to[4 i] = a[i], to[4 i + 1] = b[i], to[4 i + 2] = c[i], to[4 i + 3] = d[i].
+template <typename T, std::size_t N>
+HWY_INLINE void store_by_fours(const Lanes<T, N>& a, const Lanes<T, N>& b, const Lanes<T, N>& c,
+                               const Lanes<T, N>& d, T* to) {
+    using Shape = LaneShape<T, N>;
+    for (std::size_t i = 0; i < Shape::kParts; ++i)
+        hn::StoreInterleaved4(a.part[i], b.part[i], c.part[i], d.part[i], typename Shape::Tag(),
+                              to + 4 * i * Shape::kPart);
+}
+
 using Floats = Lanes<float, 16>;  ///< one number for each of 16 rays
 using RayMask = LaneMask<float, 16>;
 using Ints = Lanes<std::int32_t, 16>;
@@ -374,6 +390,14 @@ template <int kBits>
 HWY_INLINE Ints shift_right(Ints v) {
     for (std::size_t i = 0; i < Ints::Shape::kParts; ++i)
         v.part[i] = hn::ShiftRight<kBits>(v.part[i]);
+    return v;
+}
+/// With zeros.
+template <int kBits>
+HWY_INLINE Ints logical_right(Ints v) {
+    const hn::RebindToUnsigned<Ints::Tag> bits;
+    for (auto& part : v.part)
+        part = hn::BitCast(Ints::Tag(), hn::ShiftRight<kBits>(hn::BitCast(bits, part)));
     return v;
 }
 HWY_INLINE Floats floats_from(const Ints& v) {

@@ -33,14 +33,12 @@ std::optional<Referee::Nearest> Referee::nearer(int x, int y, Slot slot, Slot ot
     return nearest;
 }
 
-bool Referee::blocks(int x, int y, Slot lit, std::size_t light, Slot occluder) const {
+Referee::Kernel::Shadow Referee::way_to_light(int x, int y, Slot lit, std::size_t light) const {
     const ExactRay prepared = kernel_.prepare(camera_.rays.ray(x, y));
     const auto hit = kernel_.hit_of(prepared, scene_.id(lit));
     const Object& object = scene_.scene().objects[scene_.source(lit).object];
     const auto surface = kernel_.surface(prepared, *hit, object);
-    const auto shadow = kernel_.shadow(surface, scene_.scene().lights[light]);
-    const PrimitiveId id = scene_.id(occluder);
-    return kernel_.blocks(shadow, {id, id + 1});
+    return kernel_.shadow(surface, scene_.scene().lights[light]);
 }
 
 }  // namespace nuvo

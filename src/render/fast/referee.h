@@ -35,8 +35,13 @@ class Referee {
     /// (kNoSlot: none).
     std::optional<Nearest> nearer(int x, int y, Slot slot, Slot other) const;
 
-    /// Whether `occluder` stands between light and the point that pixel (x, y) shows on `lit`.
-    bool blocks(int x, int y, Slot lit, std::size_t light, Slot occluder) const;
+    /// The way to a light from the point that pixel (x, y) shows on `lit`.
+    Kernel::Shadow way_to_light(int x, int y, Slot lit, std::size_t light) const;
+    /// Whether `occluder` stands on that way.
+    bool blocks(const Kernel::Shadow& way, Slot occluder) const {
+        const PrimitiveId id = scene_.id(occluder);
+        return kernel_.blocks(way, {id, id + 1});
+    }
 
     /// The pixel's color, given what it shows (kNoSlot: the background) and which lights are not
     /// blocked (bit i of the predicate; lights that do not cast shadows are asked for, too).

@@ -5,6 +5,7 @@
 
 #include "nuvo/geometry/predicates.h"
 #include "nuvo/math/error_bounds.h"
+#include "nuvo/math/parallel.h"
 #include "shadow_planes.h"
 
 namespace nuvo {
@@ -60,7 +61,7 @@ LightPoint::LightPoint(const Light& light, const LocalFrame& frame) {
 
 ShadowTables::ShadowTables(const FastScene& scene, InstructionSet isa, int threads,
                            TableFilling filling)
-    : scene_(scene), isa_(isa) {
+    : scene_(scene), isa_(isa), threads_(threads) {
     const Bounds3T<float>& box = scene.octree().bounds;
     reach_ = std::fmax(max_norm(box.min), max_norm(box.max));
     if (!std::isfinite(reach_)) reach_ = 1;  // an empty scene
@@ -72,8 +73,6 @@ ShadowTables::ShadowTables(const FastScene& scene, InstructionSet isa, int threa
         rounded_up(kPlaneRoundings * kFloatRoundoff * reach_ + 2 * touch_ + kFloatUnderflow);
     round_error_ =
         rounded_up(kRoundRoundings * kFloatRoundoff * reach_ + kTouch * touch_ + kFloatUnderflow);
-    const auto nodes = static_cast<double>(scene.octree().nodes.size());
-    leaf_width_ = static_cast<float>(2 * reach_ / std::cbrt(nodes + 1));
     rounds_.resize(scene.slot_end() - scene.triangle_end());
     const std::vector<Light>& lights = scene.scene().lights;
     const auto casts = [](const Light& light) { return light.casts_shadow; };
@@ -119,11 +118,14 @@ void ShadowTables::take_rounds(Slot first, Slot last) {
 }
 
 void ShadowTables::finish() {
-    for (ShadowTable& table : tables_) {
+    for_each_index(threads_, tables_.size(), [&](std::size_t light, int) {
+        ShadowTable& table = tables_[light];
+        if (!scene_.scene().lights[light].casts_shadow) return;
+        table.buffer = LightBuffer(table.light, {scene_, rounds_, reach_, round_error_}, isa_);
         const auto inside = std::find_if(table.round_sides.begin(), table.round_sides.end(),
                                          [](LightSide s) { return s != LightSide::kOutside; });
         if (inside == table.round_sides.end()) table.round_sides.clear();
-    }
+    });
 }
 
 RoundShape ShadowTables::round_shape(const Shape& shape) const {
@@ -166,7 +168,8 @@ LightSide ShadowTables::side(const LightPoint& light, const RoundShape& shape) c
 
 std::size_t ShadowTables::memory_bytes() const {
     std::size_t bytes = rounds_.size() * sizeof(RoundShape) + planes_.size() * sizeof(ShadowPlanes);
-    for (const ShadowTable& table : tables_) bytes += table.round_sides.size() * sizeof(LightSide);
+    for (const ShadowTable& table : tables_)
+        bytes += table.round_sides.size() * sizeof(LightSide) + table.buffer.memory_bytes();
     return bytes;
 }
 

@@ -4,44 +4,13 @@
 #include <vector>
 
 #include "fast_scene.h"
+#include "light_buffer.h"
 #include "nuvo/math/big_vector.h"
 #include "nuvo/render/fast.h"
-#include "nuvo/scene/light.h"
+#include "shadow_geometry.h"
 #include "triangle_chunk.h"
 
-// What a triangle hides from a light is a cone cut off by the triangle: the points on the inner
-// side of the three planes through the light and an edge, and beyond the triangle's own (shadow
-// volumes: Crow 1977, "Shadow algorithms for computer graphics"). All four are affine functions of
-// the point, for a light at a place and for one in a direction alike; so a shadow ray against a
-// triangle is 12 multiplications and additions and a minimum.
-
 namespace nuvo {
-
-/// A light as the point toward / weight of the local frame; weight 0: the direction `toward` to the
-/// light. No component is greater than 1; the weight is a power of two.
-struct LightPoint {
-    LightPoint(const Light& light, const LocalFrame& frame);
-
-    Vector3 toward;
-    double weight = 0;
-    bool finite = true;  ///< false: out of the range of doubles, nothing below is sure
-};
-
-/// Four functions n.P + w of a point P of the local frame, |n|_1 = 1, positive where the triangle
-/// hides P from the light. The first three belong to the edges, the last to the triangle's plane.
-/// One that double arithmetic cannot place well enough is 0 everywhere: it decides nothing.
-struct alignas(64) ShadowPlanes {
-    float plane[4][4];  ///< n, w
-};
-
-/// A sphere, or one around an ellipsoid, in the local frame.
-struct RoundShape {
-    float center[3];
-    float radius;
-};
-
-/// Where a light stands towards a round shape.
-enum class LightSide : std::uint8_t { kOutside, kInside, kUnknown };
 
 struct ShadowTable {
     explicit ShadowTable(const LightPoint& from) : light(from) {}
@@ -49,6 +18,7 @@ struct ShadowTable {
     LightPoint light;
     std::size_t first_plane = 0;       ///< where its planes begin among those of all lights
     BigVector<LightSide> round_sides;  ///< of slots from triangle_end on; empty: all outside
+    LightBuffer buffer;
 };
 
 /// What the shadow stage needs of scene and lights, shared by all threads.
@@ -80,9 +50,6 @@ class ShadowTables {
     /// but for twice P's own error; with a margin in which round shapes count as touched.
     float round_error() const { return round_error_; }
 
-    /// How wide a node would be if all were cubes side by side: about what a beam may be thick.
-    float leaf_width() const { return leaf_width_; }
-
     std::size_t memory_bytes() const;
 
   private:
@@ -93,9 +60,9 @@ class ShadowTables {
 
     const FastScene& scene_;
     InstructionSet isa_;
+    int threads_;
     double reach_;  // largest |coordinate| of the scene's box in the local frame
     double touch_;  // bounds SurfacePoint::error, in the local frame
-    float leaf_width_;
     float plane_error_;
     float round_error_;
     BigVector<RoundShape> rounds_;
