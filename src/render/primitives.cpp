@@ -6,7 +6,37 @@ namespace {
 // Meshes lie anywhere in memory: they are asked for by so many objects before they are needed.
 constexpr std::size_t kPrefetchAhead = 8;
 
-void ask_for(const Shape& shape) {
+// Adds what has been appended since there were so many items and primitives; sees kinds in order.
+class Summarizer {
+  public:
+    explicit Summarizer(Primitives& out) : out_(out) {}
+
+    void add(PrimitiveKind kind) {
+        KindSummary& summary = out_.kinds[static_cast<std::size_t>(kind)];
+        summary.count += out_.sources.size() - primitives_;
+        Bounds3 box = summary.box;
+        for (; items_ < out_.item_boxes.size(); ++items_)
+            box = box.extended(out_.item_boxes[items_]);
+        summary.box = box;
+        if (out_.sources.size() == primitives_) return;
+        primitives_ = out_.sources.size();
+        out_.sorted_by_kind &= kind >= last_;
+        last_ = kind;
+    }
+
+  private:
+    Primitives& out_;
+    std::size_t primitives_ = 0;
+    std::size_t items_ = 0;
+    PrimitiveKind last_ = PrimitiveKind::kTriangle;
+};
+
+void ask_for(const Object& object) {
+    __builtin_prefetch(&object);
+    __builtin_prefetch(reinterpret_cast<const char*>(&object + 1) - 1);
+}
+
+void ask_for_lists(const Shape& shape) {
     const auto* mesh = std::get_if<TriangleMesh>(&shape);
     if (!mesh) return;
     __builtin_prefetch(mesh->triangles.data());
@@ -55,9 +85,12 @@ Primitives flatten(const Scene& scene, LeafContent leaves) {
     Primitives out;
     make_room(scene.objects.size(), scene.objects.size(), out);
     bool any_mesh = false;
+    Summarizer summarizer(out);
     for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {
+        if (i + 2 * kPrefetchAhead < scene.objects.size())
+            ask_for(scene.objects[i + 2 * kPrefetchAhead]);
         if (i + kPrefetchAhead < scene.objects.size())
-            ask_for(scene.objects[i + kPrefetchAhead].shape);
+            ask_for_lists(scene.objects[i + kPrefetchAhead].shape);
         const Shape& shape = scene.objects[i].shape;
         if (const auto* mesh = std::get_if<TriangleMesh>(&shape)) {
             if (!any_mesh) {
@@ -71,6 +104,7 @@ Primitives flatten(const Scene& scene, LeafContent leaves) {
             out.item_boxes.push_back(bounds(shape));
             out.sources.push_back({i, 0});
         }
+        summarizer.add(kind_of(shape));
     }
     out.item_first.push_back(static_cast<PrimitiveId>(out.sources.size()));
     return out;

@@ -78,13 +78,12 @@ class TriangleMaker {
         store_rounded(select(known_, dot(plane, right_), zero), columns_.at[0][i]);
         store_rounded(select(known_, dot(plane, down_), zero), columns_.at[1][i]);
         store_rounded(select(known_, dot(plane, forward_), zero), columns_.at[2][i]);
-        const Wide whole = error + bound(plane) * (relative + Wide(kCameraRoundings * kRoundoff));
-        const Wide up = whole * Wide(1 + 2 * kRoundoff) + Wide(kFloatUnderflow);
+        const Wide whole =
+            error + bound(plane) * (relative + Wide(kCameraRoundings * kFloatRoundoff));
+        const Wide up = whole * Wide(1 + 2 * kFloatRoundoff) + Wide(kFloatUnderflow);
         store_rounded(select(known_, up, Wide(std::numeric_limits<double>::infinity())),
                       columns_.at[3][i]);
     }
-
-    static constexpr double kRoundoff = kFloatRoundoff;
 
     Wide3 right_, down_, forward_, eye_;
     Wide scale_;

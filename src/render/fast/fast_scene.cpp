@@ -18,37 +18,6 @@
 namespace nuvo {
 namespace {
 
-enum Kind : std::uint8_t { kTriangleKind, kSphereKind, kEllipsoidKind };
-
-Kind kind_of(const Object& object) {
-    if (std::holds_alternative<TriangleMesh>(object.shape)) return kTriangleKind;
-    return std::holds_alternative<Sphere>(object.shape) ? kSphereKind : kEllipsoidKind;
-}
-
-// How many primitives of a kind there are, and where.
-struct Survey {
-    Survey(const Scene& scene, const Primitives& primitives) {
-        Kind last = kTriangleKind;
-        const std::size_t end = primitives.sources.size();
-        for (std::size_t i = 0; i < end;) {
-            const std::uint32_t object = primitives.sources[i].object;
-            const Kind kind = kind_of(scene.objects[object]);
-            sorted &= kind >= last;
-            last = kind;
-            const std::size_t first = i;
-            Bounds3 box = boxes[kind];
-            for (; i < end && primitives.sources[i].object == object; ++i)
-                box = box.extended(primitives.item_boxes[i]);
-            boxes[kind] = box;
-            counts[kind] += i - first;
-        }
-    }
-
-    std::size_t counts[3] = {};
-    Bounds3 boxes[3];
-    bool sorted = true;  // by kind
-};
-
 LocalFrame frame_of(const Bounds3& box) {
     if (box.empty()) return {};
     LocalFrame frame;
@@ -100,9 +69,11 @@ class LocalItemsMaker {
         const LocalTrianglesJob job{frame_, items_.triangles.data(), items_.boxes.data()};
         for_each_chunk(fast_, threads,
                        [&](const TriangleChunk& chunk) { make_local_triangles(job, chunk, isa); });
-        const Slot first = fast_.triangle_end();
-        for_each_part(threads, fast_.slot_end() - first, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) put_round(first + static_cast<Slot>(i));
+        for_each_round_part(fast_, threads, [&](Slot first, Slot last) {
+            for (Slot slot = first; slot < last; ++slot) {
+                fast_.ask_ahead(slot);
+                put_round(slot);
+            }
         });
         return std::move(items_);
     }
@@ -154,20 +125,23 @@ CompactOctree octree_of(const LocalItems& items, CompactBuildOptions options) {
 
 FastScene::FastScene(const Scene& scene, const Primitives& primitives, OctreeType type, int threads)
     : scene_(scene), primitives_(primitives) {
-    const Survey survey(scene, primitives);
-    Bounds3 box = survey.boxes[kTriangleKind];
-    triangle_box_ = box;
-    box = box.extended(survey.boxes[kSphereKind]).extended(survey.boxes[kEllipsoidKind]);
+    Bounds3 box;
+    for (const KindSummary& kind : primitives.kinds) box = box.extended(kind.box);
     frame_ = frame_of(box);
     if (!box.empty()) largest_coordinate_ = std::max(max_norm(box.min), max_norm(box.max));
-    triangle_end_ = static_cast<Slot>(survey.counts[kTriangleKind]);
-    sphere_end_ = triangle_end_ + static_cast<Slot>(survey.counts[kSphereKind]);
-    slot_end_ = sphere_end_ + static_cast<Slot>(survey.counts[kEllipsoidKind]);
-    if (!survey.sorted) {
+    const auto count = [&](PrimitiveKind kind) {
+        return static_cast<Slot>(primitives.kind(kind).count);
+    };
+    triangle_end_ = count(PrimitiveKind::kTriangle);
+    sphere_end_ = triangle_end_ + count(PrimitiveKind::kSphere);
+    slot_end_ = sphere_end_ + count(PrimitiveKind::kEllipsoid);
+    if (!primitives.sorted_by_kind) {
         Slot next[3] = {0, triangle_end_, sphere_end_};
         ids_.resize(slot_end_);
-        for (PrimitiveId id = 0; id < slot_end_; ++id)
-            ids_[next[kind_of(scene.objects[primitives.sources[id].object])]++] = id;
+        for (PrimitiveId id = 0; id < slot_end_; ++id) {
+            const PrimitiveKind kind = kind_of(scene.objects[primitives.sources[id].object].shape);
+            ids_[next[static_cast<std::size_t>(kind)]++] = id;
+        }
     }
     CompactBuildOptions options;
     options.rule = type == OctreeType::kUniform ? CutRule::kSpatial : CutRule::kSweep;

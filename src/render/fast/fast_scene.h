@@ -40,7 +40,7 @@ class FastScene {
     const Primitives& primitives() const { return primitives_; }
     const LocalFrame& frame() const { return frame_; }
     /// Holds every triangle; world space.
-    const Bounds3& triangle_box() const { return triangle_box_; }
+    const Bounds3& triangle_box() const { return primitives_.kind(PrimitiveKind::kTriangle).box; }
     /// Of all boxes of primitives; world space.
     double largest_coordinate() const { return largest_coordinate_; }
     const CompactOctree& octree() const { return octree_; }
@@ -53,6 +53,15 @@ class FastScene {
     /// Document order's name of the primitive.
     PrimitiveId id(Slot slot) const { return ids_.empty() ? slot : ids_[slot]; }
     const PrimitiveSource& source(Slot slot) const { return primitives_.sources[id(slot)]; }
+    const Object& object(Slot slot) const { return scene_.objects[source(slot).object]; }
+    /// Where objects are read slot by slot: asks for one that will be needed soon.
+    void ask_ahead(Slot slot) const {
+        constexpr Slot kAhead = 12;
+        if (slot_end_ - slot <= kAhead) return;
+        const Object* const soon = &object(slot + kAhead);
+        __builtin_prefetch(soon);
+        __builtin_prefetch(reinterpret_cast<const char*>(soon + 1) - 1);
+    }
     /// Corners rounded to nearest, by slot.
     const BigVector<LocalTriangle>& triangles() const { return triangles_; }
 
@@ -60,7 +69,6 @@ class FastScene {
     const Scene& scene_;
     const Primitives& primitives_;
     LocalFrame frame_;
-    Bounds3 triangle_box_;
     double largest_coordinate_ = 0;
     Slot triangle_end_ = 0;
     Slot sphere_end_ = 0;

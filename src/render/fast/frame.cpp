@@ -10,6 +10,7 @@
 #include "shading.h"
 #include "shadow.h"
 #include "tile_order.h"
+#include "triangle_chunk.h"
 
 // The picture tile by tile: primary rays, surfaces, and for each light its samples, its shadows and
 // its sum; then bytes. Tiles share nothing but tables that are only read and the picture they write

@@ -105,9 +105,10 @@ void ShadowTables::take(const TriangleChunk& chunk) {
 void ShadowTables::take_rounds(Slot first, Slot last) {
     const std::size_t begin = first - scene_.triangle_end();
     const std::size_t end = last - scene_.triangle_end();
-    for (Slot slot = first; slot < last; ++slot)
-        rounds_[slot - scene_.triangle_end()] =
-            round_shape(scene_.scene().objects[scene_.source(slot).object].shape);
+    for (Slot slot = first; slot < last; ++slot) {
+        scene_.ask_ahead(slot);
+        rounds_[slot - scene_.triangle_end()] = round_shape(scene_.object(slot).shape);
+    }
     for (ShadowTable& table : tables_) {
         if (table.round_sides.empty()) continue;
         for (std::size_t i = begin; i < end; ++i)
