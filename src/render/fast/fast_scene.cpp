@@ -8,6 +8,7 @@
 #include "nuvo/math/parallel.h"
 #include "nuvo/octree/compact_build.h"
 #include "octant_tests.h"
+#include "slot_order.h"
 
 // Everything that is rounded here is rounded outwards: a box holds the true primitive as the local
 // frame's exact mapping places it. The floats made of corners and centres serve the octree's
@@ -23,9 +24,14 @@ Kind kind_of(const Object& object) {
     return std::holds_alternative<Sphere>(object.shape) ? kSphereKind : kEllipsoidKind;
 }
 
-LocalFrame frame_of(const Primitives& primitives) {
+Bounds3 box_of(const Primitives& primitives) {
     Bounds3 box;
     for (const Bounds3& b : primitives.item_boxes) box = box.extended(b);
+    return box;
+}
+
+LocalFrame frame_of(const Primitives& primitives) {
+    const Bounds3 box = box_of(primitives);
     if (box.empty()) return {};
     LocalFrame frame;
     frame.center = box.center();
@@ -73,13 +79,16 @@ class LocalItemsMaker {
 
     LocalItems make(int threads) && {
         constexpr Slot kChunk = 4096;
-        const Slot end = fast_.slot_end();
+        const Slot end = fast_.triangle_end();
         for_each_index(threads, (end + kChunk - 1) / kChunk, [&](std::size_t i, int) {
             const Slot first = static_cast<Slot>(i) * kChunk;
             const Slot last = std::min(end, first + kChunk);
-            put_triangles(first, std::min(last, fast_.triangle_end()));
-            for (Slot slot = std::max(first, fast_.triangle_end()); slot < last; ++slot)
-                put_round(slot);
+            put_triangles(first, last);
+        });
+        const std::vector<FastScene::Round>& rounds = fast_.rounds();
+        for_each_index(threads, (rounds.size() + kChunk - 1) / kChunk, [&](std::size_t i, int) {
+            const std::size_t last = std::min(rounds.size(), (i + 1) * kChunk);
+            for (std::size_t k = i * kChunk; k < last; ++k) put_round(rounds[k]);
         });
         return std::move(items_);
     }
@@ -102,10 +111,11 @@ class LocalItemsMaker {
         }
     }
 
-    void put_round(Slot slot) {
-        items_.boxes[slot] = local_box(frame_, fast_.primitives().item_boxes[fast_.id(slot)]);
+    void put_round(const FastScene::Round& round) {
+        const auto& [id, slot] = round;
+        items_.boxes[slot] = local_box(frame_, fast_.primitives().item_boxes[id]);
         if (slot >= fast_.sphere_end()) return;
-        const Object& object = fast_.scene().objects[fast_.source(slot).object];
+        const Object& object = fast_.scene().objects[fast_.primitives().sources[id].object];
         const Sphere& sphere = std::get<Sphere>(object.shape);
         items_.spheres[slot - fast_.triangle_end()] = {
             Vec3<float>(frame_.local(sphere.center)),
@@ -143,28 +153,40 @@ OctantTest octant_test(const LocalItems& items) {
 
 FastScene::FastScene(const Scene& scene, const Primitives& primitives, OctreeType type, int threads)
     : scene_(scene), primitives_(primitives), frame_(frame_of(primitives)) {
-    std::size_t counts[3] = {};
-    bool sorted = true;
-    Kind last = kTriangleKind;
-    for (const PrimitiveSource& source : primitives.sources) {
-        const Kind kind = kind_of(scene.objects[source.object]);
-        sorted &= kind >= last;
-        last = kind;
-        ++counts[kind];
-    }
-    triangle_end_ = static_cast<Slot>(counts[0]);
-    sphere_end_ = static_cast<Slot>(counts[0] + counts[1]);
-    slot_end_ = static_cast<Slot>(counts[0] + counts[1] + counts[2]);
-    if (!sorted) {
-        Slot next[3] = {0, triangle_end_, sphere_end_};
-        ids_.resize(slot_end_);
-        for (PrimitiveId id = 0; id < slot_end_; ++id)
-            ids_[next[kind_of(scene.objects[primitives.sources[id].object])]++] = id;
-    }
+    order_slots();
     CompactBuildOptions options;
     options.rule = type == OctreeType::kUniform ? CutRule::kSpatial : CutRule::kSweep;
     options.threads = threads;
     octree_ = octree(options);
+}
+
+void FastScene::order_slots() {
+    std::vector<PrimitiveId> of_kind[3];
+    const auto end = static_cast<PrimitiveId>(primitives_.sources.size());
+    for (PrimitiveId id = 0; id < end; ++id)
+        of_kind[kind_of(scene_.objects[primitives_.sources[id].object])].push_back(id);
+    triangle_end_ = static_cast<Slot>(of_kind[kTriangleKind].size());
+    sphere_end_ = triangle_end_ + static_cast<Slot>(of_kind[kSphereKind].size());
+    slot_end_ = end;
+    if (slot_end_ != triangle_end_) {
+        const Bounds3 box = box_of(primitives_);
+        sort_in_space(primitives_, box, of_kind[kSphereKind]);
+        sort_in_space(primitives_, box, of_kind[kEllipsoidKind]);
+    }
+    std::vector<Slot> slots(end);
+    bool document_order = true;
+    for (const std::vector<PrimitiveId>& ids : of_kind) {
+        for (const PrimitiveId id : ids) {
+            const auto slot = static_cast<Slot>(ids_.size());
+            document_order &= id == slot;
+            slots[id] = slot;
+            ids_.push_back(id);
+        }
+    }
+    rounds_.reserve(slot_end_ - triangle_end_);
+    for (PrimitiveId id = 0; id < end; ++id)
+        if (slots[id] >= triangle_end_) rounds_.push_back({id, slots[id]});
+    if (document_order) ids_ = {};
 }
 
 CompactOctree FastScene::octree(CompactBuildOptions options) const {

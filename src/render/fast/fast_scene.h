@@ -23,8 +23,8 @@ struct LocalFrame {
     Vector3 local_direction(const Vector3& d) const { return d * scale; }
 };
 
-/// Index of a primitive among those of its kind's order: triangles first, then spheres, then
-/// ellipsoids, each in document order.
+/// Index of a primitive by kind: triangles first, in document order, then spheres, then ellipsoids,
+/// near ones near each other where there are many.
 using Slot = std::uint32_t;
 inline constexpr Slot kNoSlot = ~Slot{0};
 
@@ -47,8 +47,17 @@ class FastScene {
     /// Document order's name of the primitive.
     PrimitiveId id(Slot slot) const { return ids_.empty() ? slot : ids_[slot]; }
     const PrimitiveSource& source(Slot slot) const { return primitives_.sources[id(slot)]; }
+    /// A sphere or ellipsoid.
+    struct Round {
+        PrimitiveId id;
+        Slot slot;
+    };
+    /// All of them in document order, in which the scene is read fastest.
+    const std::vector<Round>& rounds() const { return rounds_; }
 
   private:
+    void order_slots();
+
     const Scene& scene_;
     const Primitives& primitives_;
     LocalFrame frame_;
@@ -56,6 +65,7 @@ class FastScene {
     Slot sphere_end_ = 0;
     Slot slot_end_ = 0;
     std::vector<PrimitiveId> ids_;  // empty: the same order
+    std::vector<Round> rounds_;
     CompactOctree octree_;
 };
 

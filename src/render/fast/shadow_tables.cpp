@@ -126,8 +126,9 @@ void ShadowTables::add_planes(const Light& light, const ShadowTable& table, Inst
 
 void ShadowTables::add_rounds() {
     const LocalFrame& frame = scene_.frame();
-    for (Slot slot = scene_.triangle_end(); slot < scene_.slot_end(); ++slot) {
-        const Shape& shape = scene_.scene().objects[scene_.source(slot).object].shape;
+    rounds_.resize(scene_.rounds().size());
+    for (const auto& [id, slot] : scene_.rounds()) {
+        const Shape& shape = scene_.scene().objects[scene_.primitives().sources[id].object].shape;
         Point3 center;
         double radius = 0;
         if (const auto* sphere = std::get_if<Sphere>(&shape)) {
@@ -139,9 +140,10 @@ void ShadowTables::add_rounds() {
             radius = radius_around(ellipsoid, touch_ / frame.scale);
         }
         const Point3 local = frame.local(center);
-        rounds_.push_back({{static_cast<float>(local.x), static_cast<float>(local.y),
-                            static_cast<float>(local.z)},
-                           static_cast<float>(radius * frame.scale)});
+        rounds_[slot - scene_.triangle_end()] = {{static_cast<float>(local.x),
+                                                  static_cast<float>(local.y),
+                                                  static_cast<float>(local.z)},
+                                                 static_cast<float>(radius * frame.scale)};
     }
 }
 
