@@ -5,6 +5,7 @@
 
 #include "camera_triangles.h"
 #include "nuvo/math/error_bounds.h"
+#include "pixel_boxes.h"
 
 namespace nuvo {
 namespace {
@@ -49,22 +50,33 @@ CameraTables::CameraTables(const FastScene& fast, const CameraRays& camera, Inst
     const Point3 eye = scene.camera.position;
     const double scale = fast.frame().scale;
     triangles.resize(fast.triangle_end());
-    make_camera_triangles(isa, fast, camera, triangles);
+    BigVector<PixelBox> by_slot;
+    by_slot.resize(fast.slot_end());
+    make_camera_triangles(isa, fast, camera, triangles, by_slot);
     const double direction = CameraExtent(camera).direction;
-    spheres.reserve(fast.slot_end() - fast.triangle_end());
-    for (Slot slot = fast.triangle_end(); slot < fast.slot_end(); ++slot) {
-        const Object& object = scene.objects[fast.source(slot).object];
+    spheres.resize(fast.slot_end() - fast.triangle_end());
+    for (const auto& [id, slot] : fast.rounds()) {
+        const Object& object = scene.objects[fast.primitives().sources[id].object];
         const Shape& shape = object.shape;
+        CameraSphere& out = spheres[slot - fast.triangle_end()];
         if (const auto* sphere = std::get_if<Sphere>(&shape)) {
-            spheres.push_back(make_sphere(eye, scale, sphere->center, sphere->radius, direction));
+            out = make_sphere(eye, scale, sphere->center, sphere->radius, direction);
         } else {
             const Bounds3 box = bounds(shape);
             const double radius = 0.5 * length(box.widths()) * (1 + gamma(64));
-            spheres.push_back(make_sphere(eye, scale, box.center(), radius, direction));
-            spheres.back().exactly = true;
+            out = make_sphere(eye, scale, box.center(), radius, direction);
+            out.exactly = true;
         }
-        spheres.back().material = object.material;
-        spheres.back().solid = object.solid;
+        out.material = object.material;
+        out.solid = object.solid;
+    }
+    make_sphere_boxes(isa, camera, spheres.data(), spheres.size(),
+                      by_slot.data() + fast.triangle_end());
+    const std::vector<std::uint32_t>& items = fast.octree().items;
+    boxes.resize(items.size());
+    for (std::size_t i = 0; i < items.size(); ++i) {
+        boxes[i] = by_slot[items[i]];
+        boxes[i].slot = items[i];
     }
 }
 

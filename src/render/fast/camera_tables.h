@@ -41,16 +41,27 @@ struct alignas(64) CameraSphere {
 };
 static_assert(sizeof(CameraSphere) == 64);
 
+/// The pixels at whose centres a primitive may be seen, and how near it may be.
+struct alignas(16) PixelBox {
+    std::uint32_t columns;  ///< the first | the one after the last << 16
+    std::uint32_t rows;     ///< the same
+    float nearest;          ///< bounds q = 1 / t of its hits from above
+    Slot slot;
+};
+static_assert(sizeof(PixelBox) == 16);
+
 /// Made anew for each picture.
 struct CameraTables {
     CameraTables(const FastScene& scene, const CameraRays& camera, InstructionSet isa);
 
     std::size_t memory_bytes() const {
-        return triangles.size() * sizeof(CameraTriangle) + spheres.size() * sizeof(CameraSphere);
+        return triangles.size() * sizeof(CameraTriangle) + spheres.size() * sizeof(CameraSphere) +
+               boxes.size() * sizeof(PixelBox);
     }
 
     BigVector<CameraTriangle> triangles;  ///< by slot
     BigVector<CameraSphere> spheres;      ///< by slot - triangle_end()
+    BigVector<PixelBox> boxes;            ///< by reference: of CompactOctree::items
 };
 
 }  // namespace nuvo

@@ -9,6 +9,7 @@
 #include <hwy/foreach_target.h>
 
 #include "fast/lanes.h"
+#include "fast/pixel_box_lanes.h"
 
 // u, v, w are the triple products of the ray's direction with the planes through the eye and an
 // edge, turned so that they are positive where the line enters at t > 0; with K = n.(a - eye),
@@ -136,10 +137,11 @@ class TriangleGroup {
     CameraExtent extent_;
 };
 
-void make_triangles(const FastScene& fast, const CameraRays& camera,
-                    BigVector<CameraTriangle>& out) {
+void make_triangles(const FastScene& fast, const CameraRays& camera, BigVector<CameraTriangle>& out,
+                    BigVector<PixelBox>& boxes) {
     const Scene& scene = fast.scene();
     const TriangleGroup group(camera, scene.camera.position, fast.frame().scale);
+    const PixelBoxMaker box_maker(camera);
     alignas(64) double corners[9][kGroup] = {};
     for (Slot first = 0; first < fast.triangle_end(); first += kGroup) {
         const int count = static_cast<int>(std::min<Slot>(kGroup, fast.triangle_end() - first));
@@ -153,6 +155,8 @@ void make_triangles(const FastScene& fast, const CameraRays& camera,
                         mesh.positions[corner[i]][axis];
         }
         group.make(corners, out.data() + first, count);
+        box_maker.triangles(corners, scene.camera.position, fast.frame().scale,
+                            boxes.data() + first, static_cast<std::size_t>(count));
     }
 }
 
@@ -165,8 +169,8 @@ HWY_AFTER_NAMESPACE();
 namespace nuvo {
 
 void make_camera_triangles(InstructionSet isa, const FastScene& scene, const CameraRays& camera,
-                           BigVector<CameraTriangle>& out) {
-    NUVO_FOR_ISA(isa, make_triangles)(scene, camera, out);
+                           BigVector<CameraTriangle>& out, BigVector<PixelBox>& boxes) {
+    NUVO_FOR_ISA(isa, make_triangles)(scene, camera, out, boxes);
 }
 
 }  // namespace nuvo

@@ -23,8 +23,8 @@ struct CameraExtent {
     double direction;  ///< bounds the sum of |components| of forward, X right and Y down
 };
 
-/// Fills the table of all triangles.
+/// Fills the table and the boxes of all triangles.
 void make_camera_triangles(InstructionSet isa, const FastScene& scene, const CameraRays& camera,
-                           BigVector<CameraTriangle>& out);
+                           BigVector<CameraTriangle>& out, BigVector<PixelBox>& boxes);
 
 }  // namespace nuvo
