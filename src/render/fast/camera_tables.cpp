@@ -12,6 +12,7 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr double kFloatRoundoff = 0x1p-24;
+constexpr std::size_t kAhead = 16;  // records are asked for before they are written
 
 float rounded_up(double value) {
     return static_cast<float>(value * (1 + 2 * kFloatRoundoff) + kTableUnderflow);
@@ -55,7 +56,11 @@ CameraTables::CameraTables(const FastScene& fast, const CameraRays& camera, Inst
     make_camera_triangles(isa, fast, camera, triangles, by_slot);
     const double direction = CameraExtent(camera).direction;
     spheres.resize(fast.slot_end() - fast.triangle_end());
-    for (const auto& [id, slot] : fast.rounds()) {
+    const std::vector<FastScene::Round>& rounds = fast.rounds();
+    for (std::size_t i = 0; i < rounds.size(); ++i) {
+        const auto& [id, slot] = rounds[i];
+        if (rounds.size() - i > kAhead)
+            __builtin_prefetch(&spheres[rounds[i + kAhead].slot - fast.triangle_end()], 1);
         const Object& object = scene.objects[fast.primitives().sources[id].object];
         const Shape& shape = object.shape;
         CameraSphere& out = spheres[slot - fast.triangle_end()];

@@ -140,10 +140,9 @@ void ShadowTables::add_rounds() {
             radius = radius_around(ellipsoid, touch_ / frame.scale);
         }
         const Point3 local = frame.local(center);
-        rounds_[slot - scene_.triangle_end()] = {{static_cast<float>(local.x),
-                                                  static_cast<float>(local.y),
-                                                  static_cast<float>(local.z)},
-                                                 static_cast<float>(radius * frame.scale)};
+        rounds_[slot - scene_.triangle_end()] = {
+            {static_cast<float>(local.x), static_cast<float>(local.y), static_cast<float>(local.z)},
+            static_cast<float>(radius * frame.scale)};
     }
 }
 
