@@ -81,8 +81,8 @@ TEST_F(TriangleChunkTest, BringsEveryTriangleOnceInItsPlace) {
 TEST_F(TriangleChunkTest, BringsEveryRoundShapeOnce) {
     for (const int threads : {1, 3}) {
         std::vector<std::atomic<int>> met(fast_.slot_end());
-        for_each_round_part(fast_, threads, [&](Slot first, Slot last) {
-            for (Slot slot = first; slot < last; ++slot) ++met[slot];
+        for_each_round_part(fast_, threads, [&](RoundSpan rounds) {
+            for (const RoundShapeSlot& round : rounds) ++met[round.slot];
         });
         for (Slot slot = 0; slot < fast_.slot_end(); ++slot)
             ASSERT_EQ(met[slot], slot < fast_.triangle_end() ? 0 : 1);

@@ -5,6 +5,8 @@
 
 #include "camera_triangles.h"
 #include "nuvo/math/error_bounds.h"
+#include "nuvo/math/parallel.h"
+#include "pixel_boxes.h"
 
 namespace nuvo {
 namespace {
@@ -44,27 +46,29 @@ CameraSphere make_sphere(const Point3& eye, double scale, const Point3& center, 
 
 CameraTables::CameraTables(const FastScene& scene, const CameraRays& camera, InstructionSet isa,
                            int threads, TableFilling filling)
-    : scene_(scene), camera_(camera), isa_(isa) {
+    : scene_(scene), camera_(camera), isa_(isa), threads_(threads) {
     triangles.resize(scene.triangle_end());
+    by_slot_.resize(scene.slot_end());
     spheres.resize(scene.slot_end() - scene.triangle_end());
     if (filling == TableFilling::kNow) fill_tables(scene, threads, *this);
 }
 
 void CameraTables::take(const TriangleChunk& chunk) {
-    make_camera_triangles(
-        {camera_, scene_.scene().camera.position, scene_.frame().scale, triangles.data()}, chunk,
-        isa_);
+    make_camera_triangles({camera_, scene_.scene().camera.position, scene_.frame().scale,
+                           triangles.data(), by_slot_.data()},
+                          chunk, isa_);
 }
 
-void CameraTables::take_rounds(Slot first, Slot last) {
-    const Scene& scene = scene_.scene();
-    const Point3 eye = scene.camera.position;
+void CameraTables::take_rounds(RoundSpan rounds) {
+    const Point3 eye = scene_.scene().camera.position;
     const double scale = scene_.frame().scale;
     const double direction = CameraExtent(camera_).direction;
-    for (Slot slot = first; slot < last; ++slot) {
-        const Object& object = scene.objects[scene_.source(slot).object];
+    for (const RoundShapeSlot& round : rounds) {
+        if (const RoundShapeSlot* const soon = scene_.soon(round))
+            __builtin_prefetch(&spheres[soon->slot - scene_.triangle_end()], 1);
+        const Object& object = scene_.object(round.id);
         const Shape& shape = object.shape;
-        CameraSphere& out = spheres[slot - scene_.triangle_end()];
+        CameraSphere& out = spheres[round.slot - scene_.triangle_end()];
         if (const auto* sphere = std::get_if<Sphere>(&shape)) {
             out = make_sphere(eye, scale, sphere->center, sphere->radius, direction);
         } else {
@@ -76,6 +80,23 @@ void CameraTables::take_rounds(Slot first, Slot last) {
         out.material = object.material;
         out.solid = object.solid;
     }
+}
+
+void CameraTables::finish() {
+    const Slot first = scene_.triangle_end();
+    for_each_part(threads_, spheres.size(), [&](std::size_t begin, std::size_t end) {
+        make_sphere_boxes(isa_, camera_, spheres.data() + begin, end - begin,
+                          by_slot_.data() + first + begin);
+    });
+    const std::vector<std::uint32_t>& items = scene_.octree().items;
+    boxes.resize(items.size());
+    for_each_part(threads_, items.size(), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            boxes[i] = by_slot_[items[i]];
+            boxes[i].slot = items[i];
+        }
+    });
+    by_slot_ = {};
 }
 
 }  // namespace nuvo

@@ -43,6 +43,15 @@ struct alignas(64) CameraSphere {
 };
 static_assert(sizeof(CameraSphere) == 64);
 
+/// The pixels at whose centres a primitive may be seen, and how near it may be.
+struct alignas(16) PixelBox {
+    std::uint32_t columns;  ///< the first | the one after the last << 16
+    std::uint32_t rows;     ///< the same
+    float nearest;          ///< bounds q = 1 / t of its hits from above
+    Slot slot;
+};
+static_assert(sizeof(PixelBox) == 16);
+
 /// Made anew for each picture.
 class CameraTables {
   public:
@@ -52,20 +61,24 @@ class CameraTables {
 
     /// For fill_tables(); by several threads at a time.
     void take(const TriangleChunk& chunk);
-    void take_rounds(Slot first, Slot last);
-    void finish() {}
+    void take_rounds(RoundSpan rounds);
+    void finish();
 
     std::size_t memory_bytes() const {
-        return triangles.size() * sizeof(CameraTriangle) + spheres.size() * sizeof(CameraSphere);
+        return triangles.size() * sizeof(CameraTriangle) + spheres.size() * sizeof(CameraSphere) +
+               boxes.size() * sizeof(PixelBox);
     }
 
     BigVector<CameraTriangle> triangles;  ///< by slot
     BigVector<CameraSphere> spheres;      ///< by slot - triangle_end()
+    BigVector<PixelBox> boxes;            ///< by reference: of CompactOctree::items
 
   private:
     const FastScene& scene_;
     const CameraRays& camera_;
     InstructionSet isa_;
+    int threads_;
+    BigVector<PixelBox> by_slot_;  // until finish()
 };
 
 }  // namespace nuvo

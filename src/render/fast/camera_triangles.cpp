@@ -8,6 +8,7 @@
 #define HWY_TARGET_INCLUDE "fast/camera_triangles.cpp"
 #include <hwy/foreach_target.h>
 
+#include "fast/pixel_box_lanes.h"
 #include "fast/wide_vectors.h"
 
 // u, v, w are the triple products of the ray's direction with the planes through the eye and an
@@ -94,8 +95,11 @@ class TriangleMaker {
 
 void make_triangles(const CameraTrianglesJob& job, const TriangleChunk& chunk) {
     TriangleMaker maker(job.camera, job.eye, job.scale);
-    chunk.for_each_batch([&](const TriangleBatch& batch, Slot first, std::size_t count)
-                             HWY_ATTR { maker.make(batch, job.out + first, count); });
+    const PixelBoxMaker boxes(job.camera);
+    chunk.for_each_batch([&](const TriangleBatch& batch, Slot first, std::size_t count) HWY_ATTR {
+        maker.make(batch, job.out + first, count);
+        boxes.triangles(batch.corner, job.eye, job.scale, job.boxes + first, count);
+    });
 }
 
 }  // namespace nuvo::HWY_NAMESPACE

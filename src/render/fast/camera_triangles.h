@@ -25,9 +25,10 @@ struct CameraTrianglesJob {
     Point3 eye;           ///< world space
     double scale;         ///< of the local frame
     CameraTriangle* out;  ///< of slot 0
+    PixelBox* boxes;      ///< of slot 0
 };
 
-/// Makes the records of a chunk.
+/// Makes the records and pixel boxes of a chunk.
 void make_camera_triangles(const CameraTrianglesJob& job, const TriangleChunk& chunk,
                            InstructionSet isa);
 

@@ -70,9 +70,7 @@ HWY_INLINE Doubles affine(double first, double right, double down) {
                    mul_add(Doubles::load(kSteps.down_double), Doubles(down), Doubles(first)));
 }
 
-// From an estimate in float one step of Newton's, which squares its error and adds a few
-// roundings: within kNewtonError.
-inline constexpr double kNewtonError = 0x1p-40;
+/// From an estimate in float one step of Newton's, which squares its error: within 2^-44.
 HWY_INLINE Doubles precise_reciprocal(const Doubles& v) {
     const Doubles e = doubles_from(reciprocal(floats_from(v)));
     return e * neg_mul_add(v, e, Doubles(2.0));

@@ -10,6 +10,7 @@
 #include "nuvo/math/parallel.h"
 #include "nuvo/octree/compact_build.h"
 #include "octant_tests.h"
+#include "slot_order.h"
 
 // Everything that is rounded here is rounded outwards: a box holds the true primitive as the local
 // frame's exact mapping places it. The floats made of corners and centres serve the octree's
@@ -69,22 +70,21 @@ class LocalItemsMaker {
         const LocalTrianglesJob job{frame_, items_.triangles.data(), items_.boxes.data()};
         for_each_chunk(fast_, threads,
                        [&](const TriangleChunk& chunk) { make_local_triangles(job, chunk, isa); });
-        for_each_round_part(fast_, threads, [&](Slot first, Slot last) {
-            for (Slot slot = first; slot < last; ++slot) {
-                fast_.ask_ahead(slot);
-                put_round(slot);
+        for_each_round_part(fast_, threads, [&](RoundSpan rounds) {
+            for (const RoundShapeSlot& round : rounds) {
+                fast_.soon(round);
+                put_round(round);
             }
         });
         return std::move(items_);
     }
 
   private:
-    void put_round(Slot slot) {
-        items_.boxes[slot] = local_box(frame_, fast_.primitives().item_boxes[fast_.id(slot)]);
-        if (slot >= fast_.sphere_end()) return;
-        const Object& object = fast_.scene().objects[fast_.source(slot).object];
-        const Sphere& sphere = std::get<Sphere>(object.shape);
-        items_.spheres[slot - fast_.triangle_end()] = {
+    void put_round(const RoundShapeSlot& round) {
+        items_.boxes[round.slot] = local_box(frame_, fast_.primitives().item_boxes[round.id]);
+        if (round.slot >= fast_.sphere_end()) return;
+        const Sphere& sphere = std::get<Sphere>(fast_.object(round.id).shape);
+        items_.spheres[round.slot - fast_.triangle_end()] = {
             Vec3<float>(frame_.local(sphere.center)),
             static_cast<float>(sphere.radius * frame_.scale)};
     }
@@ -135,20 +135,35 @@ FastScene::FastScene(const Scene& scene, const Primitives& primitives, OctreeTyp
     triangle_end_ = count(PrimitiveKind::kTriangle);
     sphere_end_ = triangle_end_ + count(PrimitiveKind::kSphere);
     slot_end_ = sphere_end_ + count(PrimitiveKind::kEllipsoid);
-    if (!primitives.sorted_by_kind) {
-        Slot next[3] = {0, triangle_end_, sphere_end_};
-        ids_.resize(slot_end_);
-        for (PrimitiveId id = 0; id < slot_end_; ++id) {
-            const PrimitiveKind kind = kind_of(scene.objects[primitives.sources[id].object].shape);
-            ids_[next[static_cast<std::size_t>(kind)]++] = id;
-        }
-    }
+    order_slots(box);
     CompactBuildOptions options;
     options.rule = type == OctreeType::kUniform ? CutRule::kSpatial : CutRule::kSweep;
     options.threads = threads;
     LocalItems items = LocalItemsMaker(*this).make(options.threads);
     octree_ = octree_of(items, options);
     triangles_ = std::move(items.triangles);
+}
+
+void FastScene::order_slots(const Bounds3& box) {
+    if (primitives_.sorted_by_kind && slot_end_ == triangle_end_) return;
+    std::vector<PrimitiveId> of_kind[3];
+    for (PrimitiveId id = 0; id < slot_end_; ++id)
+        of_kind[static_cast<std::size_t>(kind_of(object(id).shape))].push_back(id);
+    for (const PrimitiveKind kind : {PrimitiveKind::kSphere, PrimitiveKind::kEllipsoid})
+        sort_in_space(primitives_, box, of_kind[static_cast<std::size_t>(kind)]);
+    std::vector<Slot> slots(slot_end_);
+    bool document_order = true;
+    for (const std::vector<PrimitiveId>& ids : of_kind)
+        for (const PrimitiveId id : ids) {
+            const auto slot = static_cast<Slot>(ids_.size());
+            document_order &= id == slot;
+            slots[id] = slot;
+            ids_.push_back(id);
+        }
+    rounds_.reserve(slot_end_ - triangle_end_);
+    for (PrimitiveId id = 0; id < slot_end_; ++id)
+        if (slots[id] >= triangle_end_) rounds_.push_back({id, slots[id]});
+    if (document_order) ids_ = {};
 }
 
 CompactOctree FastScene::octree(const CompactBuildOptions& options) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "nuvo/math/big_vector.h"
@@ -25,10 +26,17 @@ struct LocalFrame {
     Vector3 local_direction(const Vector3& d) const { return d * scale; }
 };
 
-/// Index of a primitive among those of its kind's order: triangles first, then spheres, then
-/// ellipsoids, each in document order.
+/// A primitive's place: triangles first, in document order, then spheres, then ellipsoids, each in
+/// an order of their own.
 using Slot = std::uint32_t;
 inline constexpr Slot kNoSlot = ~Slot{0};
+
+/// A sphere or ellipsoid.
+struct RoundShapeSlot {
+    PrimitiveId id;
+    Slot slot;
+};
+using RoundSpan = std::span<const RoundShapeSlot>;
 
 /// The scene sorted by kind, with its octree in the local frame: all that does not depend on camera
 /// and lights.
@@ -53,19 +61,27 @@ class FastScene {
     /// Document order's name of the primitive.
     PrimitiveId id(Slot slot) const { return ids_.empty() ? slot : ids_[slot]; }
     const PrimitiveSource& source(Slot slot) const { return primitives_.sources[id(slot)]; }
-    const Object& object(Slot slot) const { return scene_.objects[source(slot).object]; }
-    /// Where objects are read slot by slot: asks for one that will be needed soon.
-    void ask_ahead(Slot slot) const {
-        constexpr Slot kAhead = 12;
-        if (slot_end_ - slot <= kAhead) return;
-        const Object* const soon = &object(slot + kAhead);
+    const Object& object(PrimitiveId id) const {
+        return scene_.objects[primitives_.sources[id].object];
+    }
+    /// All spheres and ellipsoids in document order, in which the scene is read fastest.
+    RoundSpan rounds() const { return rounds_; }
+    /// One that comes soon after one of rounds(), if there is any; its object is asked for.
+    const RoundShapeSlot* soon(const RoundShapeSlot& round) const {
+        constexpr std::ptrdiff_t kAhead = 12;
+        if (rounds_.data() + rounds_.size() - &round <= kAhead) return nullptr;
+        const RoundShapeSlot* const then = &round + kAhead;
+        const Object* const soon = &object(then->id);
         __builtin_prefetch(soon);
         __builtin_prefetch(reinterpret_cast<const char*>(soon + 1) - 1);
+        return then;
     }
     /// Corners rounded to nearest, by slot.
     const BigVector<LocalTriangle>& triangles() const { return triangles_; }
 
   private:
+    void order_slots(const Bounds3& box);
+
     const Scene& scene_;
     const Primitives& primitives_;
     LocalFrame frame_;
@@ -74,6 +90,7 @@ class FastScene {
     Slot sphere_end_ = 0;
     Slot slot_end_ = 0;
     std::vector<PrimitiveId> ids_;  // empty: the same order
+    BigVector<RoundShapeSlot> rounds_;
     BigVector<LocalTriangle> triangles_;
     CompactOctree octree_;
 };

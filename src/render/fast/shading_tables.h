@@ -131,7 +131,7 @@ struct ShadingTables {
 
     /// For fill_tables(); by several threads at a time.
     void take(const TriangleChunk& chunk);
-    void take_rounds(Slot, Slot) {}
+    void take_rounds(RoundSpan) {}
     void finish() {}
 
     std::size_t memory_bytes() const;

@@ -102,18 +102,15 @@ void ShadowTables::take(const TriangleChunk& chunk) {
     }
 }
 
-void ShadowTables::take_rounds(Slot first, Slot last) {
-    const std::size_t begin = first - scene_.triangle_end();
-    const std::size_t end = last - scene_.triangle_end();
-    for (Slot slot = first; slot < last; ++slot) {
-        scene_.ask_ahead(slot);
-        rounds_[slot - scene_.triangle_end()] = round_shape(scene_.object(slot).shape);
-    }
-    for (ShadowTable& table : tables_) {
-        if (table.round_sides.empty()) continue;
-        for (std::size_t i = begin; i < end; ++i)
-            table.round_sides[i] =
-                table.light.finite ? side(table.light, rounds_[i]) : LightSide::kUnknown;
+void ShadowTables::take_rounds(RoundSpan rounds) {
+    for (const RoundShapeSlot& round : rounds) {
+        scene_.soon(round);
+        const std::size_t i = round.slot - scene_.triangle_end();
+        rounds_[i] = round_shape(scene_.object(round.id).shape);
+        for (ShadowTable& table : tables_)
+            if (!table.round_sides.empty())
+                table.round_sides[i] =
+                    table.light.finite ? side(table.light, rounds_[i]) : LightSide::kUnknown;
     }
 }
 

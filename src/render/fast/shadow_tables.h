@@ -29,7 +29,7 @@ class ShadowTables {
 
     /// For fill_tables(); by several threads at a time.
     void take(const TriangleChunk& chunk);
-    void take_rounds(Slot first, Slot last);
+    void take_rounds(RoundSpan rounds);
     void finish();
 
     const FastScene& scene() const { return scene_; }

@@ -35,7 +35,7 @@ struct alignas(64) Tile {
     Slot slot[kTileLanes];  ///< kNoSlot: the background
     float near_low[kTileLanes];
     float near_high[kTileLanes];
-    float round_normal[3][kTileLanes];  ///< of spheres and ellipsoids: unit, outwards
+    float round_normal[3][kTileLanes];  ///< of ellipsoids: unit, outwards
     float round_error[kTileLanes];      ///< bounds the error of round_normal on each axis
     TileMask hit;
 

@@ -74,12 +74,12 @@ void for_each_chunk(const FastScene& scene, int threads,
 }
 
 void for_each_round_part(const FastScene& scene, int threads,
-                         const std::function<void(Slot, Slot)>& work) {
+                         const std::function<void(RoundSpan)>& work) {
     constexpr std::size_t kStep = 256;
-    const std::size_t first = scene.triangle_end();
-    for_each_part(threads, scene.slot_end() - first, [&](std::size_t begin, std::size_t end) {
+    const RoundSpan all = scene.rounds();
+    for_each_part(threads, all.size(), [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; i += kStep)
-            work(static_cast<Slot>(first + i), static_cast<Slot>(first + std::min(end, i + kStep)));
+            work(all.subspan(i, std::min(kStep, end - i)));
     });
 }
 

@@ -54,18 +54,18 @@ void for_each_chunk(const FastScene& scene, int threads,
 /// that to fill_tables().
 enum class TableFilling : std::uint8_t { kNow, kLater };
 
-/// Calls work(first, last) for all round shapes' slots, so few at a time that their objects are
-/// still at hand when the next table asks.
+/// Calls work(some) for all round shapes, so few at a time that their objects are still at hand
+/// when the next table asks.
 void for_each_round_part(const FastScene& scene, int threads,
-                         const std::function<void(Slot first, Slot last)>& work);
+                         const std::function<void(RoundSpan)>& work);
 
-/// Calls take(chunk) of each table for all triangles, take_rounds(first, last) for all round
-/// shapes, and finish().
+/// Calls take(chunk) of each table for all triangles, take_rounds(some) for all round shapes, and
+/// finish().
 template <typename... Tables>
 void fill_tables(const FastScene& scene, int threads, Tables&... tables) {
     for_each_chunk(scene, threads, [&](const TriangleChunk& chunk) { (tables.take(chunk), ...); });
     for_each_round_part(scene, threads,
-                        [&](Slot first, Slot last) { (tables.take_rounds(first, last), ...); });
+                        [&](RoundSpan rounds) { (tables.take_rounds(rounds), ...); });
     (tables.finish(), ...);
 }
 

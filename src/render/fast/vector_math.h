@@ -63,7 +63,8 @@ HWY_INLINE Floats polynomial(const float (&coefficients)[kCount], const Floats& 
 /// over 4 * 10^6 pairs). It is asked for the complement because a specular lobe is steep where 1 -
 /// z would lose z's digits. log2(m 2^k) = k + f P(f), f = m - 1 = -z if k = 0, is within 3 u
 /// relatively, the product y with the exponent 4 u; 2^y sees it times y ln 2, and 2^y |y| ln 2 <=
-/// 0.37: 1.5 u; its own polynomial and scaling add 3 u. Below 2^-125 the result stays there.
+/// 0.37: 1.5 u; its own polynomial and scaling add 3 u. Below 2^-60 the result stays there:
+/// subnormal numbers are slow.
 inline constexpr float kPowerError = 6 * kFloatRoundoff;
 HWY_INLINE Floats power_of_complement(const Floats& z, const Floats& exponent) {
     // log2(1 + f) / f on sqrt(1/2) - 1 .. sqrt(2) - 1, within 2^-27.6
@@ -80,7 +81,7 @@ HWY_INLINE Floats power_of_complement(const Floats& z, const Floats& exponent) {
                                      0.000154614446986F};
     constexpr std::int32_t kRootOfHalf = 0x3f3504f3;  // sqrt(1/2) as a float's bits
     constexpr std::int32_t kExponentBits = ~0x7fffff;
-    constexpr float kSmallest = -125;
+    constexpr float kSmallest = -60;
     constexpr float kToInteger = 0x1.8p23F;  // a float plus this has no fraction left
 
     const Ints bits = bits_of(Floats(1.0F) - z);
