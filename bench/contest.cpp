@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "nuvo/image/bmp.h"
+#include "nuvo/math/big_vector.h"
 
 // Both sides in one process and in turn, so that whatever else the machine does meets both.
 
@@ -46,6 +47,7 @@ void our_round(const Scene& scene, const ContestOptions& options, OurSamples& sa
 void embree_round(const FloatScene& floats, const ContestOptions& options, const Survey& survey,
                   EmbreeSamples& samples, Image& picture) {
     const app::StageStopwatch scratch;
+    const BlockKeeper pictures;  // as the tracer holds one
     const EmbreeScene built(floats, survey.options);
     samples.build.push_back(scratch.seconds());
     const EmbreeFrame frame(built, options.resolution);

@@ -2,7 +2,8 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
+
+#include "nuvo/math/big_vector.h"
 
 namespace nuvo {
 
@@ -28,7 +29,7 @@ class Image {
     int height() const { return height_; }
     Rgb8& at(int x, int y) { return pixels_[index(x, y)]; }
     const Rgb8& at(int x, int y) const { return pixels_[index(x, y)]; }
-    const std::vector<Rgb8>& pixels() const { return pixels_; }
+    const BigVector<Rgb8>& pixels() const { return pixels_; }
 
     friend bool operator==(const Image&, const Image&) = default;
 
@@ -40,7 +41,7 @@ class Image {
 
     int width_ = 0;
     int height_ = 0;
-    std::vector<Rgb8> pixels_;
+    BigVector<Rgb8> pixels_;
 };
 
 }  // namespace nuvo
