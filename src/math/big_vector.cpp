@@ -12,8 +12,11 @@ namespace nuvo {
 namespace {
 
 constexpr std::size_t kLargePage = std::size_t{1} << 21;
-constexpr std::align_val_t kLineAlignment{64};
-constexpr std::align_val_t kPageAlignment{kLargePage};
+constexpr std::size_t kLeastKept = std::size_t{1} << 16;  // smaller ones the heap keeps
+
+std::align_val_t alignment(std::size_t size) {
+    return std::align_val_t{size < kLargePage ? 64 : kLargePage};
+}
 
 // Blocks that wait for their next use. Sizes are powers of two, so that blocks of about the same
 // size do for each other; pages that are never touched cost nothing.
@@ -26,7 +29,7 @@ class KeptBlocks {
     void drop_keeper() {
         const std::lock_guard lock(mutex_);
         if (--keepers_ > 0) return;
-        for (const Block& block : blocks_) ::operator delete(block.at, kPageAlignment);
+        for (const Block& block : blocks_) ::operator delete(block.at, alignment(block.size));
         blocks_.clear();
     }
 
@@ -74,19 +77,20 @@ BlockKeeper::BlockKeeper() { kept_blocks().add_keeper(); }
 BlockKeeper::~BlockKeeper() { kept_blocks().drop_keeper(); }
 
 void* allocate_block(std::size_t bytes) {
-    if (bytes < kLargePage) return ::operator new(bytes, kLineAlignment);
+    if (bytes < kLeastKept) return ::operator new(bytes, alignment(bytes));
     const std::size_t size = std::bit_ceil(bytes);
     if (void* const kept = kept_blocks().take(size)) return kept;
-    void* const at = ::operator new(size, kPageAlignment);
+    void* const at = ::operator new(size, alignment(size));
 #if defined(__linux__)
-    madvise(at, size, MADV_HUGEPAGE);  // a wish, no more
+    if (size >= kLargePage) madvise(at, size, MADV_HUGEPAGE);  // a wish, no more
 #endif
     return at;
 }
 
 void free_block(void* at, std::size_t bytes) noexcept {
-    if (bytes < kLargePage) return ::operator delete(at, kLineAlignment);
-    if (!kept_blocks().keep(at, std::bit_ceil(bytes))) ::operator delete(at, kPageAlignment);
+    if (bytes < kLeastKept) return ::operator delete(at, alignment(bytes));
+    const std::size_t size = std::bit_ceil(bytes);
+    if (!kept_blocks().keep(at, size)) ::operator delete(at, alignment(size));
 }
 
 }  // namespace nuvo

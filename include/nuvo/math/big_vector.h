@@ -7,7 +7,7 @@
 
 namespace nuvo {
 
-/// While one of these lives, freed blocks of many megabytes stay with the process and are handed
+/// While one of these lives, freed blocks of 64 KiB and more stay with the process and are handed
 /// out again: the system would have to fill them with zeros first, which takes as long as to make
 /// a table. Held by a tracer, whose frames need the same blocks one after another, and the first
 /// one those of the octree's construction.

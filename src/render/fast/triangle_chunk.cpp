@@ -57,8 +57,8 @@ void TriangleChunk::fetch(const FastScene& scene, Slot first_slot, Slot last_slo
 
 void for_each_chunk(const FastScene& scene, int threads,
                     const std::function<void(const TriangleChunk&)>& work) {
-    // A thread takes so many chunks at a time: its tables then fill large pages of their own.
-    constexpr std::size_t kChunksAtOnce = 32;
+    // A thread takes so many chunks at a time: few, so that a small scene's can be shared.
+    constexpr std::size_t kChunksAtOnce = 8;
     constexpr std::size_t kStep = kChunksAtOnce * TriangleChunk::kTriangles;
     const std::size_t end = scene.triangle_end();
     for_each_index(threads, (end + kStep - 1) / kStep, [&](std::size_t i, int) {
