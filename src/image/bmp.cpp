@@ -49,14 +49,14 @@ std::string header(const Image& image) {
 }
 
 void append_row(std::string& out, const Image& image, int y) {
-    const std::size_t end = out.size() + row_bytes(image);
-    for (int x = 0; x < image.width(); ++x) {
+    std::size_t at = out.size();
+    out.resize(at + row_bytes(image), '\0');
+    for (int x = 0; x < image.width(); ++x, at += 3) {
         const Rgb8& pixel = image.at(x, y);
-        out.push_back(static_cast<char>(pixel.b));
-        out.push_back(static_cast<char>(pixel.g));
-        out.push_back(static_cast<char>(pixel.r));
+        out[at] = static_cast<char>(pixel.b);
+        out[at + 1] = static_cast<char>(pixel.g);
+        out[at + 2] = static_cast<char>(pixel.r);
     }
-    out.resize(end, '\0');
 }
 
 }  // namespace

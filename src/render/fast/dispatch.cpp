@@ -1,20 +1,25 @@
 #include "dispatch.h"
 
-#include <hwy/targets.h>
 #include <algorithm>
 #include <stdexcept>
 
 namespace nuvo {
 
+// What the compiler may use in Highway's targets of these names. Highway's own answer would be in
+// its shared library, which measures the processor's clocks when it is loaded: 2 ms of every run.
 std::vector<InstructionSet> supported_instruction_sets() {
     std::vector<InstructionSet> sets;
 #if HWY_ARCH_X86
-    // Asked once: the processor's answer is slow, above all on virtual machines.
-    static const auto supported = hwy::SupportedTargets();
-    const auto has = [](auto target) { return (supported & target) != 0; };
-    if (has(HWY_AVX3)) sets.push_back(InstructionSet::kAvx512);
-    if (has(HWY_AVX2)) sets.push_back(InstructionSet::kAvx2);
-    if (has(HWY_SSE4)) sets.push_back(InstructionSet::kSse4);
+    const bool sse4 = __builtin_cpu_supports("sse4.2") && __builtin_cpu_supports("aes") &&
+                      __builtin_cpu_supports("pclmul");
+    const bool avx2 = sse4 && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
+                      __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2");
+    const bool avx512 = avx2 && __builtin_cpu_supports("avx512f") &&
+                        __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq") &&
+                        __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512cd");
+    if (avx512) sets.push_back(InstructionSet::kAvx512);
+    if (avx2) sets.push_back(InstructionSet::kAvx2);
+    if (sse4) sets.push_back(InstructionSet::kSse4);
 #endif
     sets.push_back(InstructionSet::kSse2);
     return sets;
