@@ -37,7 +37,7 @@ class LightBufferMaker {
         choose_grids();
         out_.starts.resize(cells_ + 2);
         std::fill(out_.starts.begin(), out_.starts.end(), 0);
-        records_.resize(end_);
+        records_.resize(end_ + end_ / 2 + 16);  // some are seen through several faces
         for (Slot first = 0; first < end_; first += count_from(first))
             for_each_face(first, [&](int face, const LightRanges& ranges, std::uint32_t lanes)
                                      HWY_ATTR { record(first, face, ranges, lanes); });
