@@ -28,7 +28,7 @@ class Reference {
         std::size_t object = 0;
         std::size_t triangle = 0;
         std::uint64_t lit = 0;  ///< bit i: light i reaches the point unblocked
-        Rgb8 color;
+        Rgb8 color{};
 
         bool sees_the_same(const Sample& other) const {
             return hit == other.hit && object == other.object && triangle == other.triangle &&

@@ -9,9 +9,9 @@ namespace nuvo {
 
 /// One pixel, 8 bits a channel.
 struct Rgb8 {
-    std::uint8_t r = 0;
-    std::uint8_t g = 0;
-    std::uint8_t b = 0;
+    std::uint8_t r;
+    std::uint8_t g;
+    std::uint8_t b;
 
     friend constexpr bool operator==(const Rgb8&, const Rgb8&) = default;
 };
@@ -20,10 +20,17 @@ struct Rgb8 {
 class Image {
   public:
     Image() = default;
+    /// A black one.
     Image(int width, int height)
-        : width_(width),
-          height_(height),
-          pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {}
+        : width_(width), height_(height), pixels_(size(width, height), Rgb8{}) {}
+    /// One whose pixels are unset: for those who set them all.
+    static Image unset(int width, int height) {
+        Image image;
+        image.width_ = width;
+        image.height_ = height;
+        image.pixels_.resize(size(width, height));
+        return image;
+    }
 
     int width() const { return width_; }
     int height() const { return height_; }
@@ -34,6 +41,9 @@ class Image {
     friend bool operator==(const Image&, const Image&) = default;
 
   private:
+    static std::size_t size(int width, int height) {
+        return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    }
     std::size_t index(int x, int y) const {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
                static_cast<std::size_t>(x);

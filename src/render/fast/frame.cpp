@@ -137,7 +137,7 @@ std::size_t Frame::memory_bytes() const {
 
 Image Frame::render(FastTimes* times) {
     const Resolution size = tables_->rays.resolution;
-    Image image(size.width, size.height);
+    Image image = Image::unset(size.width, size.height);
     const std::vector<TilePlace>& tiles = tables_->tiles;
     const auto threads = static_cast<std::size_t>(options_.threads);
     std::vector<FastTimes> spent(threads);
