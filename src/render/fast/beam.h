@@ -147,7 +147,7 @@ HWY_INLINE bool walk_beam(const CompactOctree& octree, const BeamSlabs<kStraddle
             ahead = slabs.meets(voxel.face, node.cut, voxel.face + 4, entry) & node.mask();
             ahead = flipped(ahead, slabs.flip());
             const OctantFloats faces = OctantFloats::load(voxel.face);
-            const OctantFloats cut = OctantFloats::load_4_again(node.cut);
+            const OctantFloats cut = OctantFloats::load_repeated(node.cut);
             // The farthest first, so that the nearest is taken up next.
             while (ahead != 0) {
                 const auto order = static_cast<unsigned>(31 - std::countl_zero(ahead));
