@@ -12,6 +12,7 @@
 
 #include "beam_box.h"
 #include "lanes.h"
+#include "nuvo/math/error_bounds.h"
 #include "nuvo/octree/compact.h"
 
 // A group of rays walks the octree as one: interval arithmetic over the group (Boulos, Wald and
@@ -81,7 +82,7 @@ class BeamSlabs {
 
   private:
     // A bound is a difference, a quotient of roundings below: 4 units of 2^-24, here twice that.
-    static constexpr float kWiden = 8 * 0x1p-24F;
+    static constexpr float kWiden = 8 * kFloatRoundoff;
 
     HWY_INLINE void set_exit(int axis, bool bounds_below, float inverse) {
         other_entry_scale_[axis] = bounds_below ? inverse * (1 - kWiden) : 0;
