@@ -3,12 +3,12 @@
 #include <gtest/gtest.h>
 #include <sys/inotify.h>
 #include <sys/wait.h>
-#include <zlib.h>
 
 #include <chrono>
 #include <random>
 
 #include "cli/program_runner.h"
+#include "gzip.h"
 
 namespace nuvo::cli_test {
 namespace {
@@ -30,21 +30,6 @@ std::string repeated(const std::string& text, std::size_t count) {
 }
 
 std::string bare(const std::string& nodes) { return "<Scene>" + nodes + "</Scene>"; }
-
-std::string packed(const std::string& text) {
-    z_stream stream{};
-    if (deflateInit2(&stream, 9, Z_DEFLATED, 16 + MAX_WBITS, 9, Z_DEFAULT_STRATEGY) != Z_OK)
-        throw std::bad_alloc();
-    std::string bytes(deflateBound(&stream, text.size()) + 64, '\0');
-    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));
-    stream.avail_in = static_cast<uInt>(text.size());
-    stream.next_out = reinterpret_cast<Bytef*>(bytes.data());
-    stream.avail_out = static_cast<uInt>(bytes.size());
-    EXPECT_EQ(deflate(&stream, Z_FINISH), Z_STREAM_END);
-    bytes.resize(bytes.size() - stream.avail_out);
-    deflateEnd(&stream);
-    return bytes;
-}
 
 class Hostile : public ProgramTest {
   protected:

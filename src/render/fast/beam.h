@@ -12,6 +12,7 @@
 
 #include "beam_box.h"
 #include "lanes.h"
+#include "nuvo/math/error_bounds.h"
 #include "nuvo/octree/compact.h"
 
 // A group of rays walks the octree as one: interval arithmetic over the group (Boulos, Wald and
@@ -81,7 +82,7 @@ class BeamSlabs {
 
   private:
     // A bound is a difference, a quotient of roundings below: 4 units of 2^-24, here twice that.
-    static constexpr float kWiden = 8 * 0x1p-24F;
+    static constexpr float kWiden = 8 * kFloatRoundoff;
 
     HWY_INLINE void set_exit(int axis, bool bounds_below, float inverse) {
         other_entry_scale_[axis] = bounds_below ? inverse * (1 - kWiden) : 0;
@@ -147,7 +148,7 @@ HWY_INLINE bool walk_beam(const CompactOctree& octree, const BeamSlabs<kStraddle
             ahead = slabs.meets(voxel.face, node.cut, voxel.face + 4, entry) & node.mask();
             ahead = flipped(ahead, slabs.flip());
             const OctantFloats faces = OctantFloats::load(voxel.face);
-            const OctantFloats cut = OctantFloats::load_4_again(node.cut);
+            const OctantFloats cut = OctantFloats::load_repeated(node.cut);
             // The farthest first, so that the nearest is taken up next.
             while (ahead != 0) {
                 const auto order = static_cast<unsigned>(31 - std::countl_zero(ahead));

@@ -25,6 +25,15 @@ bool is_near(const LocalFrame& frame, const Camera& camera) {
     return max_norm(frame.local(camera.position)) < kFarthestCamera;
 }
 
+// What the serial tracer needs of the same scene.
+struct SerialTree {
+    explicit SerialTree(const FastScene& fast)
+        : octree(build_tree(fast.scene(), fast.primitives(), profile)) {}
+
+    Profile profile = exact_profile();
+    Octree octree;
+};
+
 }  // namespace
 
 struct FastTracer::State {
@@ -47,9 +56,8 @@ FastTracer& FastTracer::operator=(FastTracer&&) noexcept = default;
 Image FastTracer::render(Resolution resolution, FastTimes* times) {
     const FastScene& fast = state_->fast;
     if (!is_near(fast.frame(), fast.scene().camera)) {
-        const Profile profile = exact_profile();
-        const Octree octree = build_tree(fast.scene(), fast.primitives(), profile);
-        return nuvo::render(fast.scene(), fast.primitives(), octree, profile, resolution);
+        const SerialTree tree(fast);
+        return nuvo::render(fast.scene(), fast.primitives(), tree.octree, tree.profile, resolution);
     }
     Frame frame(fast, fast.triangle_box(), state_->options, resolution);
     state_->table_bytes = frame.memory_bytes();
@@ -68,10 +76,9 @@ RayCounts FastTracer::count_rays(Resolution resolution) const {
     const FastScene& fast = state_->fast;
     if (is_near(fast.frame(), fast.scene().camera))
         return nuvo::count_rays(fast, fast.triangle_box(), state_->options.isa, resolution);
-    const Profile profile = exact_profile();
-    const Octree octree = build_tree(fast.scene(), fast.primitives(), profile);
+    const SerialTree tree(fast);
     const TraceCounts counts =
-        count_events(fast.scene(), fast.primitives(), octree, profile, resolution);
+        count_events(fast.scene(), fast.primitives(), tree.octree, tree.profile, resolution);
     return {counts.primary_rays, counts.shadow_rays};
 }
 

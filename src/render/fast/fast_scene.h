@@ -23,7 +23,6 @@ struct LocalFrame {
     /// Three roundings at most: of the difference, in units of the larger operand; none of the
     /// product unless it is subnormal.
     Point3 local(const Point3& p) const { return (p - center) * scale; }
-    Vector3 local_direction(const Vector3& d) const { return d * scale; }
 };
 
 /// A primitive's place: triangles first, in document order, then spheres, then ellipsoids, each in

@@ -128,17 +128,6 @@ struct Lanes : LaneShape<T, N> {
                 Tag(), hn::PromoteTo(Wide(), hn::LoadU(Narrow(), from + i * Shape::kPart)));
         return v;
     }
-    /// Four numbers, again and again.
-    static HWY_INLINE Lanes load_4_again(const T* from) {
-        Lanes v;
-        for (std::size_t i = 0; i < Shape::kParts; ++i) {
-            if constexpr (Shape::kPart >= 4)
-                v.part[i] = hn::LoadDup128(Tag(), from);
-            else
-                v.part[i] = hn::LoadU(Tag(), from + i * Shape::kPart % 4);
-        }
-        return v;
-    }
     /// from[0], from[1], from[2], from[3], from[0] ...
     static HWY_INLINE Lanes load_repeated(const T* from) requires(sizeof(T) == 4) {
         Lanes v;
@@ -315,8 +304,7 @@ using Floats = Lanes<float, 16>;  ///< one number for each of 16 rays
 using RayMask = LaneMask<float, 16>;
 using Ints = Lanes<std::int32_t, 16>;
 using OctantFloats = Lanes<float, 8>;  ///< one number for each of 8 octants
-using Doubles4 = Lanes<double, 4>;
-using Doubles = Lanes<double, 16>;  ///< Floats' lanes
+using Doubles = Lanes<double, 16>;     ///< Floats' lanes
 
 /// Rounded to the nearest floats.
 HWY_INLINE Floats floats_from(const Doubles& v) {

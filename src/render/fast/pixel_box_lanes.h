@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "lanes.h"
+#include "nuvo/math/error_bounds.h"
 #include "pixel_boxes.h"
 
 // Pixel boxes of 8 primitives at a time. The camera's axes are perpendicular and the view's has
@@ -94,7 +95,7 @@ class PixelBoxMaker {
                 r * focal * sqrt(mul_add(across, across, (z - r) * (z + r))) * inverse;
             const Singles middle = x * z * inverse;
             // z - r carries 4 roundings, `inverse` 8, the terms, which may cancel, 18 at most.
-            const Singles slack = (abs(middle) + spread) * Singles(24 * kRoundoff);
+            const Singles slack = (abs(middle) + spread) * Singles(24 * kFloatRoundoff);
             low[k] = middle - spread - slack;
             high[k] = middle + spread + slack;
         }
@@ -105,7 +106,6 @@ class PixelBoxMaker {
     }
 
   private:
-    static constexpr float kRoundoff = 0x1p-24F;
     // Depths that are smaller in proportion to the point's distance are not used: so the rounding
     // of the dot products in double is at most 2^-50 2^16 of a depth.
     static constexpr float kLeastDepth = 0x1p-16F;
@@ -141,8 +141,8 @@ class PixelBoxMaker {
         const auto all = Singles::Mask::from_bits(~(sure | hidden));
         const auto none = Singles::Mask::from_bits(hidden);
         for (int k = 0; k < 2; ++k) {
-            const Singles least = low[k] - abs(low[k]) * Singles(8 * kRoundoff);
-            const Singles most = high[k] + abs(high[k]) * Singles(8 * kRoundoff);
+            const Singles least = low[k] - abs(low[k]) * Singles(8 * kFloatRoundoff);
+            const Singles most = high[k] + abs(high[k]) * Singles(8 * kFloatRoundoff);
             // The least whole number from x on is -floor(-x).
             const Singles from = -floor(Singles(first_[k] + kMargin) - least);
             const Singles to = floor(most - Singles(first_[k] - kMargin)) + Singles(1.0F);
@@ -152,7 +152,7 @@ class PixelBoxMaker {
                 .store(end[k]);
         }
         select(all, Singles(std::numeric_limits<float>::infinity()),
-               nearest * Singles(1 + 16 * kRoundoff))
+               nearest * Singles(1 + 16 * kFloatRoundoff))
             .store(near);
         for (std::size_t i = 0; i < count; ++i) {
             const auto pack = [&](int k) {

@@ -14,6 +14,7 @@
 #include "fast/lanes.h"
 #include "fast/primary_lanes.h"
 #include "fast/sphere_lanes.h"
+#include "nuvo/math/error_bounds.h"
 
 // The items of leaves wait until there are 16 of them, whose pixel boxes are then compared with the
 // tile's blocks and what these show so far, all at once: few are left. Those are tested as a
@@ -49,8 +50,7 @@ class PrimaryTracer {
     }
 
   private:
-    static constexpr float kRoundoff = 0x1p-24F;
-    static constexpr float kEntryRounding = 4 * kRoundoff;
+    static constexpr float kEntryRounding = 4 * kFloatRoundoff;
     static constexpr float kInfinity = std::numeric_limits<float>::infinity();
     // Up to so many blocks are tested one by one: from 2 to 7 the time was the same.
     static constexpr int kFewBlocks = 4;
@@ -244,7 +244,7 @@ class PrimaryTracer {
             tile_.near_high[lane] = nearest->high;
             for (int axis = 0; axis < 3; ++axis)
                 tile_.round_normal[axis][lane] = static_cast<float>(nearest->normal[axis]);
-            tile_.round_error[lane] = 2 * kRoundoff;
+            tile_.round_error[lane] = 2 * kFloatRoundoff;
         }
     }
 

@@ -22,7 +22,6 @@ constexpr std::size_t kLightsWithFacing = 8;
 float rounded(double value) { return static_cast<float>(value); }
 double largest(const Color& c) { return std::max(c.x, std::max(c.y, c.z)); }
 bool is_gray(const Color& c) { return c.x == c.y && c.y == c.z; }
-double length2(const Vector3& v) { return length(v); }
 
 // Colors are bounded by sums of terms that are not negative, and not too large for float.
 bool is_sound(double value) { return value >= 0 && value < 0x1p60; }
@@ -148,7 +147,7 @@ double farthest(const FastScene& scene, const Point3& p) {
     for (int axis = 0; axis < 3; ++axis)
         way[axis] = std::max(std::fabs(p[axis] - static_cast<double>(box.min[axis])),
                              std::fabs(static_cast<double>(box.max[axis]) - p[axis]));
-    return length2(way) * kSlack;
+    return length(way) * kSlack;
 }
 
 // What positions in the local frame may be off for being rounded in world space: those of
@@ -167,7 +166,7 @@ void place_light(const ShadingTables& tables, const Light& exact, ShadingLight& 
     const Point3 location = scene.frame().local(exact.location);
     for (int axis = 0; axis < 3; ++axis) light.location[axis] = rounded(location[axis]);
     light.location_error = rounded_up(
-        kSlack * (kFloatRoundoff * length2(location) + world_rounding(scene, exact.location)));
+        kSlack * (kFloatRoundoff * length(location) + world_rounding(scene, exact.location)));
     const Vector3& a = exact.attenuation;
     light.attenuated = a.x > 1 || a.y != 0 || a.z != 0;
     const double unit = exact.units_per_world / scale;
@@ -244,7 +243,7 @@ void bound_points(ShadingTables& tables) {
     constexpr double kSceneRadius = 1.75;  // the box is within 1 of 0 on each axis
     const double world = world_rounding(tables.scene, tables.scene.scene().camera.position);
     bounds.point_constant = rounded_up(
-        kSlack * (kFloatRoundoff * (length2(tables.camera.origin) + kSceneRadius) + world));
+        kSlack * (kFloatRoundoff * (length(tables.camera.origin) + kSceneRadius) + world));
     bounds.point_by_t =
         rounded_up(kSlack * (4.2 * kFloatRoundoff * static_cast<double>(rays.longest) +
                              static_cast<double>(rays.error)));

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "primary.h"
+#include "mailbox.h"
 #include "referee.h"
 #include "shadow_tables.h"
 #include "tile.h"

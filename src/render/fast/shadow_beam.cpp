@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "nuvo/math/error_bounds.h"
+
 namespace nuvo {
 namespace {
 
 // Four roundings of numbers up to 1 and more: of the light's place, of a difference and of a bound.
-constexpr float kRounding = 4 * 0x1p-24F;
+constexpr float kRounding = 4 * kFloatRoundoff;
 
 // Seen from a light nearby the ways to a box stay within its pyramid; from the box to the light
 // they are as good as parallel.

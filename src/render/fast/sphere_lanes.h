@@ -11,6 +11,7 @@
 
 #include "camera_tables.h"
 #include "lanes.h"
+#include "nuvo/math/error_bounds.h"
 #include "primary_lanes.h"
 
 // Spheres against the rays of a tile. Seen from the eye a sphere is a conic (Pharr, Jakob and
@@ -71,7 +72,7 @@ class SphereConics {
         b.store(b_);
         b_x.store(b_x_);
         b_y.store(b_y_);
-        mul_add(mul_add(abs(b_x) + abs(b_y), m, abs(b)), Floats(8 * kRoundoff),
+        mul_add(mul_add(abs(b_x) + abs(b_y), m, abs(b)), Floats(8 * kFloatRoundoff),
                 floats_from(Doubles::load(column[4])))
             .store(b_error_);
     }
@@ -87,8 +88,8 @@ class SphereConics {
         const Floats slope = abs(mul_add(xx + xx, x, mul_add(xy, y, Floats(x_[i])))) +
                              abs(mul_add(yy + yy, y, mul_add(xy, x, Floats(y_[i]))));
         const Floats bend = (abs(xx) + abs(xy) + abs(yy)) * Floats(kHalfBlock);
-        const Floats most = mul_add((slope + bend) * Floats(1 + 16 * kRoundoff), Floats(kHalfBlock),
-                                    discriminant(i, x, y));
+        const Floats most = mul_add((slope + bend) * Floats(1 + 16 * kFloatRoundoff),
+                                    Floats(kHalfBlock), discriminant(i, x, y));
         return (most >= Floats(-error_[i])).bits() & blocks;
     }
 
@@ -113,7 +114,6 @@ class SphereConics {
     struct Triple {
         Doubles at[3];
     };
-    static constexpr float kRoundoff = 0x1p-24F;
 
     static HWY_INLINE Triple cross(const Doubles (&f)[3], const Vector& d) {
         return {{f[1] * Doubles(d.z) - f[2] * Doubles(d.y),
@@ -138,10 +138,10 @@ class SphereConics {
         const Floats square(static_cast<float>(longest * longest));
         const Floats s = mul_add(r_square, square, size);
         const Floats c = cross_error * Floats(2 / kRootOfRoundoff);
-        const Floats error = mul_add(s, Floats(4 * kRoundoff), c * c) +
-                             mul_add(size, Floats(9 * kRoundoff), Floats(kTableUnderflow));
+        const Floats error = mul_add(s, Floats(4 * kFloatRoundoff), c * c) +
+                             mul_add(size, Floats(9 * kFloatRoundoff), Floats(kTableUnderflow));
         error.store(error_);
-        (sqrt(error + error) * Floats(1 + 4 * kRoundoff)).store(root_error_);
+        (sqrt(error + error) * Floats(1 + 4 * kFloatRoundoff)).store(root_error_);
     }
     static constexpr float kRootOfRoundoff = 0x1p-12F;
     static constexpr float kTableUnderflow = 0x1p-120F;
@@ -164,7 +164,6 @@ class SphereConics {
 struct SphereHits {
     HWY_INLINE SphereHits(const CameraSphere& s, const SphereConics& conics, std::size_t i,
                           const Floats& discriminant, const Floats& x, const Floats& y) {
-        constexpr float kRoundoff = 0x1p-24F;
         const Floats positive = max(discriminant, Floats(0.0F));
         Floats root = sqrt(positive);
         if (s.inverse_power < 0) root = -root;  // from inside the far one
@@ -172,8 +171,8 @@ struct SphereHits {
                                       Floats(conics.root_error(i)));
         const Floats q = (root - conics.toward(i, x, y)) * Floats(s.inverse_power);
         const Floats q_error = (root_error + Floats(conics.toward_error(i))) *
-                                   Floats(std::fabs(s.inverse_power) * (1 + 8 * kRoundoff)) +
-                               abs(q) * Floats(s.power_error + 8 * kRoundoff);
+                                   Floats(std::fabs(s.inverse_power) * (1 + 8 * kFloatRoundoff)) +
+                               abs(q) * Floats(s.power_error + 8 * kFloatRoundoff);
         low = q - q_error;
         high = q + q_error;
     }
