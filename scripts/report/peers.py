@@ -326,7 +326,7 @@ def put_into(path, tables):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("folder", type=pathlib.Path)
-    parser.add_argument("--type", default="nonuniform", help="the octree that stands for nuvo")
+    parser.add_argument("--type", default="uniform", help="the octree that stands for nuvo")
     parser.add_argument("--commit", default="unknown")
     parser.add_argument("--compiler", default="unknown")
     parser.add_argument("--docs", type=pathlib.Path)
