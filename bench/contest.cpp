@@ -31,8 +31,8 @@ double wall_seconds(const app::ProcessStopwatch& watch) { return watch.elapsed()
 void warm_memory(std::size_t primitives) {
     constexpr std::size_t kBytesEach = 640;
     std::vector<char> used(primitives * kBytesEach + (std::size_t{1} << 26), 1);
-    static volatile char sink;
-    sink = used[used.size() / 2];
+    const volatile char sink = used[used.size() / 2];
+    static_cast<void>(sink);
 }
 
 void our_round(const Scene& scene, const ContestOptions& options, OurSamples& samples,

@@ -113,9 +113,9 @@ TEST_F(Fast, TheRaysAreCountedAsTheSerialTracerCountsThem) {
 // Each thread's stack is taken out of the limit.
 TEST_F(Fast, WhereThreadsAreRefusedThereAreFewer) {
     put("a.x3d", grid_scene(4));
-    const std::string expected = picture({"--res=640,480"});
+    const std::string expected = picture({"--res=1280,960"});
     constexpr rlim_t kTwoGigabytes = rlim_t{1} << 31;
-    const Outcome outcome = finish(start({"--file=a", "--rep=1", "--out=few.bmp", "--res=640,480",
+    const Outcome outcome = finish(start({"--file=a", "--rep=1", "--out=few.bmp", "--res=1280,960",
                                           "--profile=fast", "--threads=1024"},
                                          "", kTwoGigabytes));
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;

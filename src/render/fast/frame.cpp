@@ -20,7 +20,7 @@ namespace nuvo {
 namespace {
 
 // The counter is locked for each few tiles: a lock waits for all stores to the picture.
-constexpr std::size_t kTilesAtOnce = 4;
+constexpr std::size_t kTilesAtOnce = 16;
 
 double seconds_now() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
