@@ -57,7 +57,7 @@ class CameraTables {
   public:
     /// Keeps references.
     CameraTables(const FastScene& scene, const CameraRays& camera, InstructionSet isa,
-                 int threads = 1, TableFilling triangles = TableFilling::kNow);
+                 int threads = 1, TableFilling filling = TableFilling::kNow);
 
     /// For fill_tables(); by several threads at a time.
     void take(const TriangleChunk& chunk);

@@ -407,24 +407,6 @@ HWY_INLINE float highest(const Floats& v) {
     return hn::GetLane(hn::MaxOfLanes(Floats::Tag(), all));
 }
 
-/// The lowest (highest) of lanes 4 i .. 4 i + 3 in each of these.
-HWY_INLINE Floats lowest_of_fours(Floats v) {
-#if HWY_TARGET == HWY_SCALAR
-    for (std::size_t i = 0; i < 16; i += 4) {
-        const auto ab = hn::Min(v.part[i], v.part[i + 1]);
-        const auto all = hn::Min(ab, hn::Min(v.part[i + 2], v.part[i + 3]));
-        for (std::size_t k = 0; k < 4; ++k) v.part[i + k] = all;
-    }
-#else
-    for (auto& part : v.part) {
-        part = hn::Min(part, hn::Shuffle2301(part));
-        part = hn::Min(part, hn::Shuffle1032(part));
-    }
-#endif
-    return v;
-}
-HWY_INLINE Floats highest_of_fours(const Floats& v) { return -lowest_of_fours(-v); }
-
 }  // namespace nuvo::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

@@ -127,7 +127,7 @@ struct ShadingTables {
     /// Keeps references; `spheres` are those of CameraTables.
     ShadingTables(const FastScene& scene, const CameraRays& camera,
                   const BigVector<CameraSphere>& spheres, InstructionSet isa,
-                  TableFilling triangles = TableFilling::kNow);
+                  TableFilling filling = TableFilling::kNow);
 
     /// For fill_tables(); by several threads at a time.
     void take(const TriangleChunk& chunk);

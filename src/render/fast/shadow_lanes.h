@@ -20,15 +20,6 @@ struct Points {
     Floats x, y, z;
 };
 
-/// A box around points.
-struct PointBox {
-    float low[3];
-    float high[3];
-
-    float extent(int axis) const { return high[axis] - low[axis]; }
-    float size() const { return extent(0) + extent(1) + extent(2); }
-};
-
 /// The least of the four functions of `t` at the points.
 HWY_INLINE Floats hidden(const ShadowPlanes& t, const Points& p) {
     const auto at = [&](const float(&n)[4]) HWY_ATTR {

@@ -25,7 +25,7 @@ struct ShadowTable {
 class ShadowTables {
   public:
     ShadowTables(const FastScene& scene, InstructionSet isa, int threads = 1,
-                 TableFilling triangles = TableFilling::kNow);
+                 TableFilling filling = TableFilling::kNow);
 
     /// For fill_tables(); by several threads at a time.
     void take(const TriangleChunk& chunk);
@@ -39,7 +39,6 @@ class ShadowTables {
     const ShadowPlanes* planes(std::size_t light) const {
         return planes_.data() + tables_[light].first_plane;
     }
-    std::size_t light_count() const { return tables_.size(); }
     const RoundShape& round(Slot slot) const { return rounds_[slot - scene_.triangle_end()]; }
     bool has_rounds() const { return !rounds_.empty(); }
 

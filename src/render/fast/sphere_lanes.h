@@ -138,13 +138,13 @@ class SphereConics {
         const Floats square(static_cast<float>(longest * longest));
         const Floats s = mul_add(r_square, square, size);
         const Floats c = cross_error * Floats(2 / kRootOfRoundoff);
-        const Floats error = mul_add(s, Floats(4 * kFloatRoundoff), c * c) +
-                             mul_add(size, Floats(9 * kFloatRoundoff), Floats(kTableUnderflow));
+        const Floats error =
+            mul_add(s, Floats(4 * kFloatRoundoff), c * c) +
+            mul_add(size, Floats(9 * kFloatRoundoff), Floats(static_cast<float>(kFloatUnderflow)));
         error.store(error_);
         (sqrt(error + error) * Floats(1 + 4 * kFloatRoundoff)).store(root_error_);
     }
     static constexpr float kRootOfRoundoff = 0x1p-12F;
-    static constexpr float kTableUnderflow = 0x1p-120F;
 
     alignas(64) float constant_[kMost];
     alignas(64) float x_[kMost];
