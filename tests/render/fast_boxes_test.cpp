@@ -33,7 +33,7 @@ Findings compare(const Scene& scene, InstructionSet isa) {
     const FastScene fast(scene, primitives, OctreeType::kUniform, 1);
     const CameraRays camera(scene.camera, kSize, fast.frame());
     const CameraTables tables(fast, camera, isa);
-    const Referee referee(fast, camera, triangle_bounds(scene, primitives));
+    const Referee referee(fast, camera);
     std::vector<const PixelBox*> by_slot(fast.slot_end());
     for (const PixelBox& box : tables.boxes) by_slot.at(box.slot) = &box;
     Findings found;

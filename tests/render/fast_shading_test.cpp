@@ -35,7 +35,7 @@ class ShadedPicture {
           primitives_(flatten(scene, LeafContent::kPrimitives)),
           fast_(scene, primitives_, OctreeType::kUniform, 1),
           camera_(scene.camera, size, fast_.frame()),
-          referee_(fast_, camera_, triangle_bounds(scene, primitives_)) {
+          referee_(fast_, camera_) {
         const Octree tree = build_tree(scene, primitives_, exact_profile());
         expected_ = render(scene, primitives_, tree, exact_profile(), size);
         facts_ = render_facts(scene, primitives_, tree, exact_profile(), size);

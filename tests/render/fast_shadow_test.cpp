@@ -34,7 +34,7 @@ class ShadowPicture {
           fast_(scene, primitives_, type, 1),
           camera_(scene.camera, size, fast_.frame()),
           triangles_(triangle_bounds(scene, primitives_)),
-          referee_(fast_, camera_, triangles_),
+          referee_(fast_, camera_),
           kernel_(scene, primitives_, triangles_, std::nullopt) {
         Profile profile = exact_profile();
         profile.walk = WalkChoice::kDescent;

@@ -27,11 +27,10 @@ std::uint64_t shadow_rays(const FastScene& scene, const Referee& referee, const 
 
 }  // namespace
 
-RayCounts count_rays(const FastScene& scene, const Bounds3& triangles, InstructionSet isa,
-                     Resolution resolution) {
+RayCounts count_rays(const FastScene& scene, InstructionSet isa, Resolution resolution) {
     const CameraRays camera(scene.scene().camera, resolution, scene.frame());
     const CameraTables tables(scene, camera, isa);
-    const Referee referee(scene, camera, triangles);
+    const Referee referee(scene, camera);
     const auto job =
         std::make_unique<PrimaryJob>(PrimaryJob{scene, camera, tables, referee, true, {}});
     const PrimaryStage primary(isa);

@@ -4,8 +4,7 @@
 
 namespace nuvo {
 
-/// The rays that the exact profile traces for the picture; `triangles` as Referee takes it.
-RayCounts count_rays(const FastScene& scene, const Bounds3& triangles, InstructionSet isa,
-                     Resolution resolution);
+/// The rays that the exact profile traces for the picture.
+RayCounts count_rays(const FastScene& scene, InstructionSet isa, Resolution resolution);
 
 }  // namespace nuvo

@@ -59,7 +59,7 @@ Image FastTracer::render(Resolution resolution, FastTimes* times) {
         const SerialTree tree(fast);
         return nuvo::render(fast.scene(), fast.primitives(), tree.octree, tree.profile, resolution);
     }
-    Frame frame(fast, fast.triangle_box(), state_->options, resolution);
+    Frame frame(fast, state_->options, resolution);
     state_->table_bytes = frame.memory_bytes();
     return frame.render(times);
 }
@@ -75,7 +75,7 @@ std::vector<RayAnswer> FastTracer::closest_hits(std::span<const Ray> rays) const
 RayCounts FastTracer::count_rays(Resolution resolution) const {
     const FastScene& fast = state_->fast;
     if (is_near(fast.frame(), fast.scene().camera))
-        return nuvo::count_rays(fast, fast.triangle_box(), state_->options.isa, resolution);
+        return nuvo::count_rays(fast, state_->options.isa, resolution);
     const SerialTree tree(fast);
     const TraceCounts counts =
         count_events(fast.scene(), fast.primitives(), tree.octree, tree.profile, resolution);

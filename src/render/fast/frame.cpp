@@ -46,11 +46,8 @@ class StageClock {
 }  // namespace
 
 struct Frame::Tables {
-    Tables(const FastScene& scene, const Bounds3& triangle_box, const FastOptions& options,
-           Resolution resolution)
-        : rays(scene.scene().camera, resolution, scene.frame()),
-          triangles(triangle_box),
-          tiles(tiles_in_order(resolution)) {
+    Tables(const FastScene& scene, const FastOptions& options, Resolution resolution)
+        : rays(scene.scene().camera, resolution, scene.frame()), tiles(tiles_in_order(resolution)) {
         shadow.emplace(scene, options.isa, options.threads, TableFilling::kLater);
         camera.emplace(scene, rays, options.isa, options.threads, TableFilling::kLater);
         const auto surfaces = std::make_shared<ShadingTables>(scene, rays, camera->spheres,
@@ -60,7 +57,6 @@ struct Frame::Tables {
     }
 
     CameraRays rays;
-    Bounds3 triangles;
     std::vector<TilePlace> tiles;
     std::optional<ShadowTables> shadow;
     std::optional<CameraTables> camera;
@@ -72,7 +68,7 @@ class Frame::Worker {
   public:
     Worker(const FastScene& scene, const Tables& tables, const FastOptions& options)
         : scene_(scene),
-          referee_(scene, tables.rays, tables.triangles),
+          referee_(scene, tables.rays),
           job_{scene, tables.rays, *tables.camera, referee_, options.redo_exactly, {}},
           primary_(options.isa),
           shadow_(*tables.shadow, options.isa, options.redo_exactly),
@@ -120,11 +116,10 @@ class Frame::Worker {
     Tile tile_{};
 };
 
-Frame::Frame(const FastScene& scene, const Bounds3& triangles, const FastOptions& options,
-             Resolution resolution)
+Frame::Frame(const FastScene& scene, const FastOptions& options, Resolution resolution)
     : scene_(scene), options_(options) {
     const double start = seconds_now();
-    tables_ = std::make_unique<Tables>(scene, triangles, options, resolution);
+    tables_ = std::make_unique<Tables>(scene, options, resolution);
     table_seconds_ = seconds_now() - start;
 }
 

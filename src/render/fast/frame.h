@@ -11,8 +11,7 @@ namespace nuvo {
 /// All that one picture needs, and the loop over its tiles.
 class Frame {
   public:
-    Frame(const FastScene& scene, const Bounds3& triangles, const FastOptions& options,
-          Resolution resolution);
+    Frame(const FastScene& scene, const FastOptions& options, Resolution resolution);
     ~Frame();
 
     /// `options.threads` threads take tiles from one counter.

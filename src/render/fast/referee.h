@@ -18,11 +18,10 @@ class Referee {
     using Kernel = ExactKernelOf<SceneStore>;
 
   public:
-    /// `triangles` is what triangle_bounds() finds in the scene.
-    Referee(const FastScene& scene, const CameraRays& camera, const Bounds3& triangles)
+    Referee(const FastScene& scene, const CameraRays& camera)
         : scene_(scene),
           camera_(camera),
-          kernel_(scene.scene(), scene.primitives(), triangles, std::nullopt) {}
+          kernel_(scene.scene(), scene.primitives(), scene.triangle_box(), std::nullopt) {}
 
     /// A hit found exactly: bounds on 1 / t in the local frame, and for a round primitive its
     /// normal.
