@@ -15,6 +15,8 @@ declare -A may_see=(
     [render]="math geometry octree image scene"
     [app]="math geometry octree image scene render"
 )
+# The folders of the fast tracer, lowest first: each sees itself and those before it.
+fast_folders=(simd scene tile primary shadow shading rays frame)
 # A library's headers and the one room that may include them.
 libraries=(
     "boost/property_tree scene"
@@ -51,6 +53,18 @@ for room in $(ls include/nuvo src | grep -v : | sort -u); do
             fault "$file:$line: includes by a path with .."
         done < <(grep -rnE "$include\"[^\"]*\.\./" "$folder" || true)
     done
+done
+
+below=""
+for folder in "${fast_folders[@]}"; do
+    below+=" $folder"
+    while IFS=: read -r file line text; do
+        seen=$(sed -E 's|.*"fast/([^/"]+)/.*|\1|' <<<"$text")
+        case "$below " in
+            *" $seen "*) ;;
+            *) fault "$file:$line: src/render/fast/$folder must not include $seen" ;;
+        esac
+    done < <(grep -rnE "$include\"fast/" "src/render/fast/$folder" || true)
 done
 
 for entry in "${libraries[@]}"; do

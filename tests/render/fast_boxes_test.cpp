@@ -4,10 +4,10 @@
 #include <random>
 #include <string>
 
-#include "fast/camera_tables.h"
-#include "fast/dispatch.h"
-#include "fast/referee.h"
-#include "fast/slot_order.h"
+#include "fast/primary/camera_tables.h"
+#include "fast/scene/slot_order.h"
+#include "fast/simd/dispatch.h"
+#include "fast/tile/referee.h"
 #include "fast_cases.h"
 
 // Pixel boxes against the exact predicates: each pixel and primitive of small pictures is asked

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <limits>
 
-#include "fast/single_ray.h"
+#include "fast/rays/single_ray.h"
 #include "fast_cases.h"
 #include "nuvo/scene/x3d.h"
 

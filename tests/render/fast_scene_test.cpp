@@ -1,4 +1,4 @@
-#include "fast/fast_scene.h"
+#include "fast/scene/fast_scene.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "fast/shading.h"
+#include "fast/shading/shading.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <sstream>
 #include <string>
 
-#include "fast/dispatch.h"
-#include "fast/primary.h"
+#include "fast/primary/primary.h"
+#include "fast/simd/dispatch.h"
 #include "nuvo/render/fast.h"
 #include "nuvo/render/render.h"
 #include "nuvo/scene/x3d.h"

@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "exact_kernel.h"
-#include "fast/dispatch.h"
-#include "fast/shadow.h"
+#include "fast/shadow/shadow.h"
+#include "fast/simd/dispatch.h"
 #include "nuvo/render/render.h"
 #include "nuvo/render/shading.h"
 #include "nuvo/scene/x3d.h"

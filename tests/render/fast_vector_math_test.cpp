@@ -5,7 +5,7 @@
 #define HWY_TARGET_INCLUDE "render/fast_vector_math_test.cpp"
 #include <hwy/foreach_target.h>
 
-#include "fast/vector_math.h"
+#include "fast/simd/vector_math.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace nuvo::HWY_NAMESPACE {
@@ -27,7 +27,7 @@ HWY_AFTER_NAMESPACE();
 #include <cmath>
 #include <random>
 
-#include "fast/dispatch.h"
+#include "fast/simd/dispatch.h"
 
 // Against the C library in double, whose errors do not count here.
 

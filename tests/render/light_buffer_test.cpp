@@ -1,4 +1,4 @@
-#include "fast/light_buffer.h"
+#include "fast/shadow/light_buffer.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <random>
 #include <set>
 
-#include "fast/dispatch.h"
-#include "fast/shadow_tables.h"
+#include "fast/shadow/shadow_tables.h"
+#include "fast/simd/dispatch.h"
 #include "nuvo/geometry/predicates.h"
 #include "nuvo/geometry/shape.h"
 #include "property/test_scenes.h"

@@ -1,4 +1,4 @@
-#include "fast/octant_tests.h"
+#include "fast/scene/octant_tests.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "fast/triangle_chunk.h"
+#include "fast/scene/triangle_chunk.h"
 
 #include <gtest/gtest.h>
 
@@ -6,10 +6,10 @@
 #include <cstring>
 #include <random>
 
-#include "fast/camera_tables.h"
-#include "fast/dispatch.h"
-#include "fast/shading_tables.h"
-#include "fast/shadow_tables.h"
+#include "fast/primary/camera_tables.h"
+#include "fast/shading/shading_tables.h"
+#include "fast/shadow/shadow_tables.h"
+#include "fast/simd/dispatch.h"
 
 namespace nuvo {
 namespace {

@@ -1,0 +1,92 @@
+#include "nuvo/render/fast.h"
+
+#include <cmath>
+
+#include "exact_kernel.h"
+#include "fast/frame/count.h"
+#include "fast/frame/frame.h"
+#include "fast/rays/single_ray.h"
+#include "fast/simd/dispatch.h"
+#include "nuvo/math/big_vector.h"
+
+namespace nuvo {
+namespace {
+
+// In units of the scene's width. Floats tell nothing of a scene seen from beyond; the serial tracer
+// takes over, with the same picture.
+constexpr double kFarthestCamera = 0x1p20;
+
+FastOptions with_isa(FastOptions options) {
+    options.isa = resolved(options.isa);
+    return options;
+}
+
+bool is_near(const LocalFrame& frame, const Camera& camera) {
+    return max_norm(frame.local(camera.position)) < kFarthestCamera;
+}
+
+// What the serial tracer needs of the same scene.
+struct SerialTree {
+    explicit SerialTree(const FastScene& fast)
+        : octree(build_tree(fast.scene(), fast.primitives(), profile)) {}
+
+    Profile profile = exact_profile();
+    Octree octree;
+};
+
+}  // namespace
+
+struct FastTracer::State {
+    State(const Scene& scene, const Primitives& primitives, const FastOptions& given)
+        : options(with_isa(given)), fast(scene, primitives, options.type, options.threads) {}
+
+    BlockKeeper keeper;
+    FastOptions options;
+    FastScene fast;
+    std::size_t table_bytes = 0;
+    std::unique_ptr<SingleRays> single;  // made when rays are first asked for
+};
+
+FastTracer::FastTracer(const Scene& scene, const Primitives& primitives, const FastOptions& options)
+    : state_(std::make_unique<State>(scene, primitives, options)) {}
+FastTracer::~FastTracer() = default;
+FastTracer::FastTracer(FastTracer&&) noexcept = default;
+FastTracer& FastTracer::operator=(FastTracer&&) noexcept = default;
+
+Image FastTracer::render(Resolution resolution, FastTimes* times) {
+    const FastScene& fast = state_->fast;
+    if (!is_near(fast.frame(), fast.scene().camera)) {
+        const SerialTree tree(fast);
+        return nuvo::render(fast.scene(), fast.primitives(), tree.octree, tree.profile, resolution);
+    }
+    Frame frame(fast, state_->options, resolution);
+    state_->table_bytes = frame.memory_bytes();
+    return frame.render(times);
+}
+
+std::vector<RayAnswer> FastTracer::closest_hits(std::span<const Ray> rays) const {
+    std::unique_ptr<SingleRays>& single = state_->single;
+    if (!single)
+        single = std::make_unique<SingleRays>(state_->fast, state_->options.isa,
+                                              state_->options.redo_exactly);
+    return single->closest_hits(rays);
+}
+
+RayCounts FastTracer::count_rays(Resolution resolution) const {
+    const FastScene& fast = state_->fast;
+    if (is_near(fast.frame(), fast.scene().camera))
+        return nuvo::count_rays(fast, state_->options.isa, resolution);
+    const SerialTree tree(fast);
+    const TraceCounts counts =
+        count_events(fast.scene(), fast.primitives(), tree.octree, tree.profile, resolution);
+    return {counts.primary_rays, counts.shadow_rays};
+}
+
+const CompactOctree& FastTracer::octree() const { return state_->fast.octree(); }
+
+FastMemory FastTracer::memory() const {
+    const std::size_t rays = state_->single ? state_->single->memory_bytes() : 0;
+    return {state_->fast.octree().memory_bytes() + rays, state_->table_bytes};
+}
+
+}  // namespace nuvo

@@ -1,0 +1,102 @@
+#include "fast/primary/camera_tables.h"
+
+#include <cmath>
+#include <limits>
+
+#include "fast/primary/camera_triangles.h"
+#include "fast/primary/pixel_boxes.h"
+#include "nuvo/math/error_bounds.h"
+#include "nuvo/math/parallel.h"
+
+namespace nuvo {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+// Of the float stages that use it.
+float bound(double value) { return rounded_up(value + kFloatUnderflow); }
+
+CameraSphere make_sphere(const Point3& eye, double scale, const Point3& center, double radius,
+                         double direction) {
+    const Vector3 from = (eye - center) * scale;
+    const double r = radius * scale;
+    const double ff = dot(from, from);
+    const double power = ff - r * r;
+    // f carries one rounding, its square and r's three more.
+    const double error = gamma(8) * (ff + r * r);
+    const double gap = std::sqrt(ff) - r;
+    CameraSphere out{};
+    for (int axis = 0; axis < 3; ++axis) out.from[axis] = from[axis];
+    out.exact_radius = r;
+    out.radius = static_cast<float>(r);
+    out.inverse_power = static_cast<float>(1 / power);
+    out.power_error = bound(2 * error / std::fabs(power) + 4 * kFloatRoundoff);
+    out.nearest = gap > 0 && power > error
+                      ? bound(1 / (gap * (1 - gamma(32)) - gamma(16) * std::sqrt(ff)))
+                      : kInfinity;
+    if (!(out.nearest > 0)) out.nearest = kInfinity;
+    out.distance = bound(std::sqrt(ff));
+    out.cross_error = bound(gamma(32) * max_norm(from) * direction);
+    out.exactly = !(std::fabs(power) > 4 * error && std::isfinite(out.inverse_power) &&
+                    std::isnormal(out.radius) && std::isfinite(out.cross_error));
+    return out;
+}
+
+}  // namespace
+
+CameraTables::CameraTables(const FastScene& scene, const CameraRays& camera, InstructionSet isa,
+                           int threads, TableFilling filling)
+    : scene_(scene), camera_(camera), isa_(isa), threads_(threads) {
+    triangles.resize(scene.triangle_end());
+    by_slot_.resize(scene.slot_end());
+    spheres.resize(scene.slot_end() - scene.triangle_end());
+    if (filling == TableFilling::kNow) fill_tables(scene, threads, *this);
+}
+
+void CameraTables::take(const TriangleChunk& chunk) {
+    make_camera_triangles({camera_, scene_.scene().camera.position, scene_.frame().scale,
+                           triangles.data(), by_slot_.data()},
+                          chunk, isa_);
+}
+
+void CameraTables::take_rounds(RoundSpan rounds) {
+    const Point3 eye = scene_.scene().camera.position;
+    const double scale = scene_.frame().scale;
+    const double direction = CameraExtent(camera_).direction;
+    for (const RoundShapeSlot& round : rounds) {
+        if (const RoundShapeSlot* const soon = scene_.soon(round))
+            __builtin_prefetch(&spheres[soon->slot - scene_.triangle_end()], 1);
+        const Object& object = scene_.object(round.id);
+        const Shape& shape = object.shape;
+        CameraSphere& out = spheres[round.slot - scene_.triangle_end()];
+        if (const auto* sphere = std::get_if<Sphere>(&shape)) {
+            out = make_sphere(eye, scale, sphere->center, sphere->radius, direction);
+        } else {
+            const Bounds3 box = bounds(shape);
+            const double radius = 0.5 * length(box.widths()) * (1 + gamma(64));
+            out = make_sphere(eye, scale, box.center(), radius, direction);
+            out.exactly = true;
+        }
+        out.material = object.material;
+        out.solid = object.solid;
+    }
+}
+
+void CameraTables::finish() {
+    const Slot first = scene_.triangle_end();
+    for_each_part(threads_, spheres.size(), [&](std::size_t begin, std::size_t end) {
+        make_sphere_boxes(isa_, camera_, spheres.data() + begin, end - begin,
+                          by_slot_.data() + first + begin);
+    });
+    const std::vector<std::uint32_t>& items = scene_.octree().items;
+    boxes.resize(items.size());
+    for_each_part(threads_, items.size(), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            boxes[i] = by_slot_[items[i]];
+            boxes[i].slot = items[i];
+        }
+    });
+    by_slot_ = {};
+}
+
+}  // namespace nuvo

@@ -1,0 +1,84 @@
+#pragma once
+
+#include "fast/scene/fast_scene.h"
+#include "fast/scene/triangle_chunk.h"
+#include "fast/tile/tile.h"
+#include "nuvo/math/big_vector.h"
+#include "nuvo/render/fast.h"
+
+// Tables for rays with a common origin. Against one triangle the edge functions of all pixels are
+// affine in the pixel's coordinates (Olano and Greer 1997, "Triangle scan conversion using 2D
+// homogeneous coordinates"), and so is the inverse of t: a test of 16 rays is a handful of
+// multiply-adds. For a sphere the vector f x d is affine, and the ray's distance from the centre
+// comes from it without cancellation (Haines et al. 2019).
+
+namespace nuvo {
+
+/// The functions u, v, w (each >= 0 inside of an edge) and q = 1 / t of a triangle at the pixel
+/// coordinates X, Y of CameraRays: value = c + a X + b Y, each off by at most e over the picture
+/// if it is evaluated in float by at most kCameraRoundings operations. e is infinite where floats
+/// cannot tell.
+struct alignas(64) CameraTriangle {
+    float a[4];
+    float b[4];
+    float c[4];
+    float e[4];
+};
+static_assert(sizeof(CameraTriangle) == 64);
+inline constexpr int kCameraRoundings = 12;
+
+/// A sphere, or the sphere around an ellipsoid, seen from the camera.
+struct alignas(64) CameraSphere {
+    double from[3];       ///< f: from the centre to the camera, local
+    double exact_radius;  ///< r in double
+    float radius;         ///< r
+    float inverse_power;  ///< 1 / (f.f - r^2); its sign tells which root is hit
+    float power_error;    ///< relative, of inverse_power
+    float nearest;        ///< bounds 1 / (least distance from the camera) from above; inf: inside
+    float distance;       ///< |f|, rounded up
+    float cross_error;    ///< bounds the error of f x d in double on each axis, over the picture
+    std::uint32_t material;  ///< index into Scene::materials
+    bool solid;
+    bool exactly;  ///< floats cannot tell: an ellipsoid, or the camera is at the surface
+};
+static_assert(sizeof(CameraSphere) == 64);
+
+/// The pixels at whose centres a primitive may be seen, and how near it may be.
+struct alignas(16) PixelBox {
+    std::uint32_t columns;  ///< the first | the one after the last << 16
+    std::uint32_t rows;     ///< the same
+    float nearest;          ///< bounds q = 1 / t of its hits from above
+    Slot slot;
+};
+static_assert(sizeof(PixelBox) == 16);
+
+/// Made anew for each picture.
+class CameraTables {
+  public:
+    /// Keeps references.
+    CameraTables(const FastScene& scene, const CameraRays& camera, InstructionSet isa,
+                 int threads = 1, TableFilling filling = TableFilling::kNow);
+
+    /// For fill_tables(); by several threads at a time.
+    void take(const TriangleChunk& chunk);
+    void take_rounds(RoundSpan rounds);
+    void finish();
+
+    std::size_t memory_bytes() const {
+        return triangles.size() * sizeof(CameraTriangle) + spheres.size() * sizeof(CameraSphere) +
+               boxes.size() * sizeof(PixelBox);
+    }
+
+    BigVector<CameraTriangle> triangles;  ///< by slot
+    BigVector<CameraSphere> spheres;      ///< by slot - triangle_end()
+    BigVector<PixelBox> boxes;            ///< by reference: of CompactOctree::items
+
+  private:
+    const FastScene& scene_;
+    const CameraRays& camera_;
+    InstructionSet isa_;
+    int threads_;
+    BigVector<PixelBox> by_slot_;  // until finish()
+};
+
+}  // namespace nuvo

@@ -1,0 +1,119 @@
+#include "fast/primary/camera_triangles.h"
+
+#include <limits>
+
+#include "nuvo/math/error_bounds.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "fast/primary/camera_triangles.cpp"
+#include <hwy/foreach_target.h>
+
+#include "fast/primary/pixel_box_lanes.h"
+#include "fast/scene/wide_vectors.h"
+
+// u, v, w are the triple products of the ray's direction with the planes through the eye and an
+// edge, turned so that they are positive where the line enters at t > 0; with K = n.(a - eye),
+// t = K / (u + v + w) and u + v + w = n.d. Eight triangles at a time, in double.
+
+HWY_BEFORE_NAMESPACE();
+namespace nuvo::HWY_NAMESPACE {
+
+class TriangleMaker {
+  public:
+    TriangleMaker(const CameraRays& camera, const Point3& eye, double scale)
+        : right_(wide(camera.right)),
+          down_(wide(camera.down)),
+          forward_(wide(camera.forward)),
+          eye_(wide(eye)),
+          scale_(scale),
+          extent_(camera) {}
+
+    HWY_INLINE void make(const TriangleBatch& batch, CameraTriangle* out, std::size_t count) {
+        const Wide3 p = load_wide(batch.corner);
+        const Wide3 q = load_wide(batch.corner + 3);
+        const Wide3 r = load_wide(batch.corner + 6);
+        const Wide3 a = (p - eye_) * scale_;
+        const Wide3 b = (q - eye_) * scale_;
+        const Wide3 c = (r - eye_) * scale_;
+        const Wide3 bc = (r - q) * scale_;
+        const Wide3 ca = (p - r) * scale_;
+        const Wide3 ab = (q - p) * scale_;
+        const Wide3 normal = cross(ca, ab);
+        const Wide constant = dot(normal, a);
+        const Wide edge = max(max_norm(ab), max_norm(ca)) + max_norm(bc);
+        const Wide reach = max(max_norm(a), max(max_norm(b), max_norm(c)));
+        // Each component of an edge plane has two products of three roundings and a difference; the
+        // direction's own roundings and its unit length in the exact ray add 12 more.
+        const Wide direction(extent_.direction);
+        const Wide relative(2 * gamma(32));
+        const Wide normal_error = relative * edge * edge;
+        const Wide inverse = Wide(1.0) / constant;
+        const Wide sign = select(constant > Wide(0.0), Wide(1.0), Wide(-1.0));
+        const Wide edge_error = relative * edge * reach * direction;
+        // The relative error of K.
+        const Wide share = Wide(3.0) * normal_error * reach * abs(inverse);
+        const Wide3 inverse_plane = normal * inverse;
+        const Wide size = bound(inverse_plane);
+        // Infinite or NaN: floats cannot tell.
+        known_ = (share < Wide(0.25)) & (size < Wide(kLargest)) & (edge_error < Wide(kLargest));
+        put(0, cross(b, bc) * sign, edge_error, Wide(0.0));
+        put(1, cross(c, ca) * sign, edge_error, Wide(0.0));
+        put(2, cross(a, ab) * sign, edge_error, Wide(0.0));
+        put(3, inverse_plane, normal_error * direction * abs(inverse), Wide(2.0) * share);
+        static_assert(sizeof(CameraTriangle) == 16 * sizeof(float));
+        columns_.write(out->a, count);
+    }
+
+  private:
+    static constexpr double kLargest = 0x1p120;
+
+    // Bounds the function over the picture.
+    HWY_INLINE Wide bound(const Wide3& plane) const {
+        return abs(dot(plane, right_)) * Wide(extent_.x) +
+               abs(dot(plane, down_)) * Wide(extent_.y) + abs(dot(plane, forward_));
+    }
+    // One function with its bound: `error` is that of the double stage.
+    HWY_INLINE void put(std::size_t i, const Wide3& plane, const Wide& error,
+                        const Wide& relative) {
+        const Wide zero(0.0);
+        store_rounded(select(known_, dot(plane, right_), zero), columns_.at[0][i]);
+        store_rounded(select(known_, dot(plane, down_), zero), columns_.at[1][i]);
+        store_rounded(select(known_, dot(plane, forward_), zero), columns_.at[2][i]);
+        const Wide whole =
+            error + bound(plane) * (relative + Wide(kCameraRoundings * kFloatRoundoff));
+        const Wide up = whole * Wide(1 + 2 * kFloatRoundoff) + Wide(kFloatUnderflow);
+        store_rounded(select(known_, up, Wide(std::numeric_limits<double>::infinity())),
+                      columns_.at[3][i]);
+    }
+
+    Wide3 right_, down_, forward_, eye_;
+    Wide scale_;
+    CameraExtent extent_;
+    Wide::Mask known_;
+    RecordColumns columns_;  // a, b, c, e of u, v, w, q
+};
+
+void make_triangles(const CameraTrianglesJob& job, const TriangleChunk& chunk) {
+    TriangleMaker maker(job.camera, job.eye, job.scale);
+    const PixelBoxMaker boxes(job.camera);
+    chunk.for_each_batch([&](const TriangleBatch& batch, Slot first, std::size_t count) HWY_ATTR {
+        maker.make(batch, job.out + first, count);
+        boxes.triangles(batch.corner, job.eye, job.scale, job.boxes + first, count);
+    });
+}
+
+}  // namespace nuvo::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "fast/simd/dispatch.h"
+
+namespace nuvo {
+
+void make_camera_triangles(const CameraTrianglesJob& job, const TriangleChunk& chunk,
+                           InstructionSet isa) {
+    (NUVO_FOR_ISA(isa, make_triangles))(job, chunk);
+}
+
+}  // namespace nuvo
+#endif

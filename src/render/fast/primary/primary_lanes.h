@@ -1,0 +1,111 @@
+// No #pragma once: compiled once for each instruction set (see hwy/foreach_target.h).
+#if defined(NUVO_RENDER_FAST_PRIMARY_LANES_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef NUVO_RENDER_FAST_PRIMARY_LANES_H_
+#undef NUVO_RENDER_FAST_PRIMARY_LANES_H_
+#else
+#define NUVO_RENDER_FAST_PRIMARY_LANES_H_
+#endif
+
+#include <cmath>
+
+#include "fast/primary/camera_tables.h"
+#include "fast/simd/lanes.h"
+#include "fast/tile/beam_box.h"
+#include "fast/tile/tile.h"
+
+// The rays of a tile, and what a hit has to beat. A tile's directions are affine in the offset from
+// its middle.
+
+HWY_BEFORE_NAMESPACE();
+namespace nuvo::HWY_NAMESPACE {
+
+/// Where the lanes of a block are: pixels from the tile's centre.
+struct alignas(64) LaneOffsets {
+    constexpr LaneOffsets() {
+        for (int lane = 0; lane < kTileLanes; ++lane) {
+            x[lane / kBlockLanes][lane % kBlockLanes] =
+                static_cast<float>(lane_x(lane)) - 0.5F * (kTileSide - 1);
+            y[lane / kBlockLanes][lane % kBlockLanes] =
+                static_cast<float>(lane_y(lane)) - 0.5F * (kTileSide - 1);
+        }
+        for (int b = 0; b < kTileBlocks; ++b) {
+            block_x[b] = static_cast<float>(b % 4 * kBlockSide) - 0.5F * (kTileSide - kBlockSide);
+            block_y[b] = static_cast<float>(b / 4 * kBlockSide) - 0.5F * (kTileSide - kBlockSide);
+        }
+    }
+    float x[kTileBlocks][kBlockLanes] = {};
+    float y[kTileBlocks][kBlockLanes] = {};
+    float block_x[kTileBlocks] = {};  ///< the centres of blocks
+    float block_y[kTileBlocks] = {};
+};
+inline constexpr LaneOffsets kOffsets;
+
+inline constexpr float kHalfBlock = 0.5F * (kBlockSide - 1);
+inline constexpr float kHalfTile = 0.5F * (kTileSide - 1);
+
+/// The middle of a tile and its beam.
+struct TileRays {
+    TileRays(const CameraRays& rays, const Tile& tile) : camera(rays) {
+        const double x = rays.center_x(tile.x) + kHalfTile;
+        const double y = rays.center_y(tile.y) + kHalfTile;
+        center = rays.direction(x, y);
+        center_x = static_cast<float>(x);
+        center_y = static_cast<float>(y);
+        fill_beam();
+    }
+
+    const CameraRays& camera;
+    Vector3 center;  ///< the direction through the middle of the tile
+    float center_x;  ///< that middle's pixel coordinates
+    float center_y;
+    BeamBox beam;
+
+  private:
+    // Directions are extreme at the corners. Two roundings' worth outside of the rounded numbers
+    // are floats that enclose them.
+    void fill_beam() {
+        constexpr double kOutwards = 0x1p-22;
+        constexpr double kSlack = 0x1p-40;
+        for (int axis = 0; axis < 3; ++axis) {
+            const double reach =
+                kHalfTile * (std::fabs(camera.right[axis]) + std::fabs(camera.down[axis]));
+            const double origin = camera.origin[axis];
+            const double origin_slack = std::fabs(origin) * kOutwards + kSlack * kSlack;
+            beam.origin_low[axis] = static_cast<float>(origin - origin_slack);
+            beam.origin_high[axis] = static_cast<float>(origin + origin_slack);
+            const double slack = (std::fabs(center[axis]) + reach) * kOutwards + kSlack;
+            beam.direction_low[axis] = static_cast<float>(center[axis] - reach - slack);
+            beam.direction_high[axis] = static_cast<float>(center[axis] + reach + slack);
+        }
+        beam.t_end = kLargestT;
+        beam.keep_off_zero();
+    }
+    static constexpr float kLargestT = 0x1p100F;
+};
+
+/// Bounds on 1 / t of a candidate against those of the nearest so far.
+struct Candidates {
+    HWY_INLINE Candidates(const Tile& tile, int block, const Floats& low_q, const Floats& high_q)
+        : low(low_q),
+          high(high_q),
+          surely_nearer(low_q > Floats::load(tile.near_high + block * kBlockLanes)),
+          perhaps_nearer(high_q >= Floats::load(tile.near_low + block * kBlockLanes)) {}
+
+    HWY_INLINE void store(Tile& tile, int block, const RayMask& mask, Slot slot) const {
+        low.store(tile.near_low + block * kBlockLanes, mask);
+        high.store(tile.near_high + block * kBlockLanes, mask);
+        Ints(static_cast<std::int32_t>(slot))
+            .store(reinterpret_cast<std::int32_t*>(tile.slot) + block * kBlockLanes,
+                   mask_for<std::int32_t>(mask));
+    }
+
+    Floats low;
+    Floats high;
+    RayMask surely_nearer;
+    RayMask perhaps_nearer;
+};
+
+}  // namespace nuvo::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // NUVO_RENDER_FAST_PRIMARY_LANES_H_

@@ -1,0 +1,187 @@
+// No #pragma once: compiled once for each instruction set (see hwy/foreach_target.h).
+#if defined(NUVO_RENDER_FAST_SPHERE_LANES_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef NUVO_RENDER_FAST_SPHERE_LANES_H_
+#undef NUVO_RENDER_FAST_SPHERE_LANES_H_
+#else
+#define NUVO_RENDER_FAST_SPHERE_LANES_H_
+#endif
+
+#include <algorithm>
+#include <cmath>
+
+#include "fast/primary/camera_tables.h"
+#include "fast/primary/primary_lanes.h"
+#include "fast/simd/lanes.h"
+#include "nuvo/math/error_bounds.h"
+
+// Spheres against the rays of a tile. Seen from the eye a sphere is a conic (Pharr, Jakob and
+// Humphreys 2016, section 3.2; Haines et al. 2019 for the form): with f from its centre to the eye
+// the discriminant |d|^2 r^2 - |f x d|^2 is a quadratic function of the pixel's offset from the
+// tile's middle, f . d an affine one. Their coefficients are computed in double, for 16 spheres at
+// a time, and rounded once: so the error is in proportion to the tile, not to the distance.
+
+HWY_BEFORE_NAMESPACE();
+namespace nuvo::HWY_NAMESPACE {
+
+/// The functions of up to 16 spheres over one tile, by sphere.
+class SphereConics {
+  public:
+    static constexpr std::size_t kMost = 16;
+
+    HWY_NOINLINE void fill(const CameraSphere* const* spheres, std::size_t count,
+                           const TileRays& rays) {
+        alignas(64) double column[5][kMost];
+        for (std::size_t i = 0; i < kMost; ++i) {
+            const CameraSphere& s = *spheres[std::min(i, count - 1)];
+            for (int axis = 0; axis < 3; ++axis) column[axis][i] = s.from[axis];
+            column[3][i] = s.exact_radius;
+            column[4][i] = s.cross_error;
+        }
+        const Vector& right = rays.camera.right;
+        const Vector& down = rays.camera.down;
+        const Doubles f[3] = {Doubles::load(column[0]), Doubles::load(column[1]),
+                              Doubles::load(column[2])};
+        const Doubles r = Doubles::load(column[3]);
+        const Doubles r_square = r * r;
+        const Triple at = cross(f, rays.center);
+        const Triple x = cross(f, right);
+        const Triple y = cross(f, down);
+        const auto gap =
+            [&](const Vector& a, const Vector& b, const Triple& fa, const Triple& fb)
+                HWY_ATTR { return floats_from(r_square * Doubles(dot(a, b)) - dot(fa, fb)); };
+        const Floats two(2.0F);
+        const Floats d = gap(rays.center, rays.center, at, at);
+        const Floats d_x = two * gap(rays.center, right, at, x);
+        const Floats d_y = two * gap(rays.center, down, at, y);
+        const Floats d_xx = gap(right, right, x, x);
+        const Floats d_xy = two * gap(right, down, x, y);
+        const Floats d_yy = gap(down, down, y, y);
+        d.store(constant_);
+        d_x.store(x_);
+        d_y.store(y_);
+        d_xx.store(xx_);
+        d_xy.store(xy_);
+        d_yy.store(yy_);
+        const Floats m(kHalfTile);
+        const Floats size =
+            mul_add(mul_add(abs(d_xx) + abs(d_xy) + abs(d_yy), m, abs(d_x) + abs(d_y)), m, abs(d));
+        set_error(rays, size, floats_from(r_square), floats_from(Doubles::load(column[4])));
+        const Floats b = floats_from(dot(f, rays.center));
+        const Floats b_x = floats_from(dot(f, right));
+        const Floats b_y = floats_from(dot(f, down));
+        b.store(b_);
+        b_x.store(b_x_);
+        b_y.store(b_y_);
+        mul_add(mul_add(abs(b_x) + abs(b_y), m, abs(b)), Floats(8 * kFloatRoundoff),
+                floats_from(Doubles::load(column[4])))
+            .store(b_error_);
+    }
+
+    /// The blocks of `blocks` in which the discriminant of sphere i is not surely negative.
+    HWY_INLINE std::uint32_t met(std::size_t i, std::uint32_t blocks) const {
+        const Floats x = Floats::load(kOffsets.block_x);
+        const Floats y = Floats::load(kOffsets.block_y);
+        const Floats xx(xx_[i]);
+        const Floats xy(xy_[i]);
+        const Floats yy(yy_[i]);
+        // Half a block away the function is more by its slopes' half a block and its bends'.
+        const Floats slope = abs(mul_add(xx + xx, x, mul_add(xy, y, Floats(x_[i])))) +
+                             abs(mul_add(yy + yy, y, mul_add(xy, x, Floats(y_[i]))));
+        const Floats bend = (abs(xx) + abs(xy) + abs(yy)) * Floats(kHalfBlock);
+        const Floats most = mul_add((slope + bend) * Floats(1 + 16 * kFloatRoundoff),
+                                    Floats(kHalfBlock), discriminant(i, x, y));
+        return (most >= Floats(-error_[i])).bits() & blocks;
+    }
+
+    HWY_INLINE Floats discriminant(std::size_t i, const Floats& x, const Floats& y) const {
+        const Floats by_x = mul_add(Floats(xx_[i]), x, mul_add(Floats(xy_[i]), y, Floats(x_[i])));
+        const Floats by_y = mul_add(Floats(yy_[i]), y, Floats(y_[i]));
+        return mul_add(x, by_x, mul_add(y, by_y, Floats(constant_[i])));
+    }
+    /// Of the discriminant.
+    float error(std::size_t i) const { return error_[i]; }
+    /// Of its root, at most.
+    float root_error(std::size_t i) const { return root_error_[i]; }
+
+    /// f . d
+    HWY_INLINE Floats toward(std::size_t i, const Floats& x, const Floats& y) const {
+        return mul_add(Floats(b_x_[i]), x, mul_add(Floats(b_y_[i]), y, Floats(b_[i])));
+    }
+    float toward_error(std::size_t i) const { return b_error_[i]; }
+
+  private:
+    using Vector = Vector3;
+    struct Triple {
+        Doubles at[3];
+    };
+
+    static HWY_INLINE Triple cross(const Doubles (&f)[3], const Vector& d) {
+        return {{f[1] * Doubles(d.z) - f[2] * Doubles(d.y),
+                 f[2] * Doubles(d.x) - f[0] * Doubles(d.z),
+                 f[0] * Doubles(d.y) - f[1] * Doubles(d.x)}};
+    }
+    static HWY_INLINE Doubles dot(const Triple& a, const Triple& b) {
+        return mul_add(a.at[0], b.at[0], mul_add(a.at[1], b.at[1], a.at[2] * b.at[2]));
+    }
+    static HWY_INLINE Doubles dot(const Doubles (&f)[3], const Vector& d) {
+        return mul_add(f[0], Doubles(d.x), mul_add(f[1], Doubles(d.y), f[2] * Doubles(d.z)));
+    }
+    static double dot(const Vector& a, const Vector& b) { return nuvo::dot(a, b); }
+
+    // `size` bounds the terms of the discriminant: 8 roundings of them. |f x d|^2 is less than
+    // size + |d|^2 r^2 =: s; an error c of f x d on each axis adds at most 3.5 c |f x d| + 3 c^2
+    // <= 2 u s + c^2 (1 / u + 3) for any u; and the double stage some 2^-47 of both.
+    HWY_INLINE void set_error(const TileRays& rays, const Floats& size, const Floats& r_square,
+                              const Floats& cross_error) {
+        const double longest = length(rays.center) +
+                               kHalfTile * (length(rays.camera.right) + length(rays.camera.down));
+        const Floats square(static_cast<float>(longest * longest));
+        const Floats s = mul_add(r_square, square, size);
+        const Floats c = cross_error * Floats(2 / kRootOfRoundoff);
+        const Floats error =
+            mul_add(s, Floats(4 * kFloatRoundoff), c * c) +
+            mul_add(size, Floats(9 * kFloatRoundoff), Floats(static_cast<float>(kFloatUnderflow)));
+        error.store(error_);
+        (sqrt(error + error) * Floats(1 + 4 * kFloatRoundoff)).store(root_error_);
+    }
+    static constexpr float kRootOfRoundoff = 0x1p-12F;
+
+    alignas(64) float constant_[kMost];
+    alignas(64) float x_[kMost];
+    alignas(64) float y_[kMost];
+    alignas(64) float xx_[kMost];
+    alignas(64) float xy_[kMost];
+    alignas(64) float yy_[kMost];
+    alignas(64) float error_[kMost];
+    alignas(64) float root_error_[kMost];
+    alignas(64) float b_[kMost];
+    alignas(64) float b_x_[kMost];
+    alignas(64) float b_y_[kMost];
+    alignas(64) float b_error_[kMost];
+};
+
+/// Where 16 rays meet a sphere: 1 / t = (-f.d +- root) / (f.f - r^2).
+struct SphereHits {
+    HWY_INLINE SphereHits(const CameraSphere& s, const SphereConics& conics, std::size_t i,
+                          const Floats& discriminant, const Floats& x, const Floats& y) {
+        const Floats positive = max(discriminant, Floats(0.0F));
+        Floats root = sqrt(positive);
+        if (s.inverse_power < 0) root = -root;  // from inside the far one
+        const Floats root_error = min(Floats(conics.error(i)) * above_inverse_sqrt(positive),
+                                      Floats(conics.root_error(i)));
+        const Floats q = (root - conics.toward(i, x, y)) * Floats(s.inverse_power);
+        const Floats q_error = (root_error + Floats(conics.toward_error(i))) *
+                                   Floats(std::fabs(s.inverse_power) * (1 + 8 * kFloatRoundoff)) +
+                               abs(q) * Floats(s.power_error + 8 * kFloatRoundoff);
+        low = q - q_error;
+        high = q + q_error;
+    }
+
+    Floats low;
+    Floats high;
+};
+
+}  // namespace nuvo::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // NUVO_RENDER_FAST_SPHERE_LANES_H_

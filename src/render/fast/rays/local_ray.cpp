@@ -1,0 +1,131 @@
+#include "fast/rays/local_ray.h"
+
+#include <bit>
+#include <cmath>
+
+#include "nuvo/math/error_bounds.h"
+
+namespace nuvo {
+namespace {
+
+constexpr int kExponentPlace = 52;
+constexpr std::uint64_t kExponentBias = 1023;
+
+// The power of two that brings a positive normal number to [1, 2).
+double to_unit(double value) {
+    const std::uint64_t exponent = std::bit_cast<std::uint64_t>(value) >> kExponentPlace;
+    return std::bit_cast<double>((2 * kExponentBias - exponent) << kExponentPlace);
+}
+
+double larger(double a, double b) { return a > b ? a : b; }
+
+// The ray enters the box around 0 with this half width later than this, if it does. Axes along
+// which the ray hardly moves are left out.
+double before_box(const Point3& o, const Vector3& d, double half) {
+    constexpr double kHardly = 0x1p-20;
+    double entry = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (std::fabs(d[axis]) < kHardly) continue;
+        const double near = d[axis] > 0 ? -half : half;
+        entry = larger(entry, (near - o[axis]) / d[axis]);
+    }
+    return entry;
+}
+
+// A point in twice the precision of a double: high + low.
+struct DoublePoint {
+    Point3 high;
+    Vector3 low;
+
+    // this + d * way, off by less than 2^-98 (|this| + |d| way) on each axis, once. (Dekker 1971)
+    void move(const Vector3& d, double way) {
+        for (int axis = 0; axis < 3; ++axis) {
+            const double product = d[axis] * way;
+            const double rest = std::fma(d[axis], way, -product);
+            const TwoTerms sum = two_diff(high[axis], -product);
+            const double tail = sum.error + (low[axis] + rest);
+            high[axis] = sum.value + tail;
+            low[axis] = tail - (high[axis] - sum.value);
+        }
+    }
+};
+
+DoublePoint local_point(const LocalFrame& frame, const Point3& p) {
+    DoublePoint out;
+    for (int axis = 0; axis < 3; ++axis) {
+        const TwoTerms difference = two_diff(p[axis], frame.center[axis]);
+        out.high[axis] = difference.value * frame.scale;
+        out.low[axis] = difference.error * frame.scale;
+    }
+    return out;
+}
+
+}  // namespace
+
+LocalRay::LocalRay(const Ray& ray, const LocalFrame& frame, float reach) {
+    // Where neither a scaled direction nor a scaled coordinate is subnormal or overflows.
+    constexpr double kRange = 0x1p900;
+    const double size = max_norm(ray.direction);
+    Point3 o = frame.local(ray.origin);
+    const double far = max_norm(o);
+    if (!(size > 1 / kRange && size < kRange && far < kRange)) return;
+    const double unit = to_unit(size);
+    const Vector3 d = ray.direction * unit;
+    scale = frame.scale / unit;
+    if (!(scale > 1 / kRange && scale < kRange)) return;
+    valid = true;
+
+    constexpr double kNear = 4;  // origins within this are as good as in the box
+    error = 0x1p-50 * (far + kNear);
+    if (far > kNear) {
+        DoublePoint point = local_point(frame, ray.origin);
+        // The way is rounded, so that the first one may end as far as 2^-50 of itself before the
+        // box, which is 1 away then.
+        constexpr int kTries = 3;
+        for (int i = 0; i < kTries && max_norm(point.high) > kNear; ++i) {
+            const double way = before_box(point.high, d, reach + 1.0) * (1 - 0x1p-50);
+            if (!(way > 0)) break;
+            point.move(d, way);
+            advance += way;
+        }
+        o = point.high;
+        error = 0x1p-50 * (max_norm(o) + kNear) + kTries * 0x1p-96 * (far + advance);
+    }
+    // After an advance nothing is met before s = 1/2: the box is 1 away on an axis, and |d| < 2.
+    behind = advance > 0 ? -0.25F : 0.0F;
+    for (int axis = 0; axis < 3; ++axis) {
+        origin[axis] = o[axis];
+        step[axis] = d[axis];
+        direction[axis] = static_cast<float>(d[axis]);
+    }
+    prepare_slabs(reach);
+    direction_sum =
+        static_cast<float>((std::fabs(d.x) + std::fabs(d.y) + std::fabs(d.z)) * (1 + 0x1p-22));
+    square = static_cast<float>(dot(d, d));
+    // A point of the ray at a box's entry lies within 2 margins of that box, which is to be less
+    // than 2^14 units of the leaf's grid; and its error less than 2^-6 units.
+    const double margin = kSlabRoundings * kFloatRoundoff *
+                              (reach + max_norm(Point3{origin[0], origin[1], origin[2]})) +
+                          error;
+    least_unit = static_cast<float>(larger(margin * 0x1p-13, error * 0x1p6));
+}
+
+void LocalRay::prepare_slabs(float reach) {
+    signs = 0;
+    for (std::uint32_t axis = 0; axis < 3; ++axis) {
+        const std::uint32_t negative = std::signbit(step[axis]) ? 1 : 0;
+        const float size = std::fabs(direction[axis]);
+        const float bounded = size > kLeastDirection ? size : kLeastDirection;
+        const double i = 1 / bounded;
+        const double slack =
+            (kSlabRoundings * kFloatRoundoff * (reach + std::fabs(origin[axis])) + error) * i;
+        const double signed_i = negative != 0 ? -i : i;
+        const double at = -origin[axis] * signed_i;
+        inverse[axis] = static_cast<float>(signed_i);
+        near_add[axis] = static_cast<float>(at - slack);
+        far_add[axis] = static_cast<float>(at + slack);
+        signs |= negative << axis;
+    }
+}
+
+}  // namespace nuvo

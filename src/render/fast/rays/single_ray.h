@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "exact_kernel.h"
+#include "fast/rays/local_ray.h"
+#include "fast/rays/ray_flight.h"
+#include "fast/rays/triangle_roots.h"
+#include "fast/rays/wide_octree.h"
+#include "fast/scene/fast_scene.h"
+#include "nuvo/render/fast.h"
+
+// Rays that have nothing in common, each on a way of its own: a step decides on 16 voxels or 16
+// primitives at once (flights.h), floats with proven bounds leave almost nothing open, and what
+// they do leave goes to the predicates of the serial tracer.
+
+namespace nuvo {
+
+/// So many rays are walked before their answers are made.
+inline constexpr std::size_t kRayBatch = 1024;
+
+/// The closest hits of arbitrary rays. Not for several threads at once.
+class SingleRays {
+    using Kernel = ExactKernelOf<SceneStore>;
+
+  public:
+    /// Keeps a reference to the scene; makes copies of its own in a layout for rays.
+    /// `redo_exactly`: see FastOptions.
+    SingleRays(const FastScene& scene, InstructionSet isa, bool redo_exactly);
+
+    /// What closest_hits() of the exact profile answers.
+    std::vector<RayAnswer> closest_hits(std::span<const Ray> rays) const;
+
+    /// Bytes of nodes and leaves.
+    std::size_t memory_bytes() const { return tree_.memory_bytes(); }
+
+    // For the walks.
+    const FastScene& scene() const { return scene_; }
+    const WideOctree& tree() const { return tree_; }
+    /// What the bounds of the float stage are multiplied with: 1, or 0 for measuring their price.
+    float bounds_scale() const { return bounds_scale_; }
+    /// The nearest of the candidates by exact arithmetic, if any is met.
+    std::optional<RayCandidate> decide(const Ray& ray, const LocalRay& local,
+                                       std::span<const RayCandidate> candidates) const;
+    /// The nearest primitive among all; kNoSlot: none.
+    Slot by_force(const Ray& ray) const;
+    /// The answers to rays of which found[i] is known to be what ray i meets first.
+    void answer(std::span<const Ray> rays, const Slot* found, RayAnswer* answers) const;
+
+  private:
+    // Where the triangles of an object are.
+    struct MeshPlace {
+        const Point3* positions;
+        const IndexTriple* triangles;
+        std::int64_t shape;
+    };
+
+    double root_of(const Ray& ray, Slot slot) const;
+
+    const FastScene& scene_;
+    Kernel kernel_;
+    WideOctree tree_;
+    std::vector<MeshPlace> meshes_;  // by object
+    TriangleRootStage roots_;
+    float bounds_scale_;
+    void (*walk_)(const SingleRays&, std::span<const Ray>, RayAnswer*);
+};
+
+}  // namespace nuvo

@@ -1,0 +1,232 @@
+// No #pragma once: compiled once for each instruction set (see hwy/foreach_target.h).
+#if defined(NUVO_RENDER_FAST_SINGLE_RAY_LEAF_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef NUVO_RENDER_FAST_SINGLE_RAY_LEAF_H_
+#undef NUVO_RENDER_FAST_SINGLE_RAY_LEAF_H_
+#else
+#define NUVO_RENDER_FAST_SINGLE_RAY_LEAF_H_
+#endif
+
+#include <bit>
+#include <limits>
+
+#include "fast/rays/ray_block.h"
+#include "fast/rays/wide_octree.h"
+#include "fast/simd/lanes.h"
+
+// One ray against 16 primitives of a leaf. The ray is seen from the point where it enters the
+// leaf's box, in units of the leaf's grid, so that all numbers are small whatever the distance.
+//
+// Bounds, with u = 2^-24 and M = kReach the largest difference of two coordinates there: the box is
+// at most 2^16 units wide and the point within 2^14 of it (LocalRay::least_unit). A corner seen
+// from the point is off by at most e = kCorner on each axis: its copy kCornerRounding, the point
+// 2^-6 for its error and 2 u M for two roundings of it, the difference u M: less than 0.53.
+
+HWY_BEFORE_NAMESPACE();
+namespace nuvo::HWY_NAMESPACE {
+
+inline constexpr float kReach = 0x1p16F + 0x1p14F;
+inline constexpr float kCorner = 0.5625F;
+static_assert(kCornerRounding + 0x1p-6 + 4 * kFloatRoundoff * kReach < kCorner);
+
+/// What is known of 16 primitives: [low, high] bounds the hit's parameter where it is met.
+struct LeafHits {
+    RayMask sure;
+    RayMask open;  ///< neither surely met nor surely missed
+    Floats low;
+    Floats high;
+
+    static HWY_INLINE LeafHits none() {
+        return {RayMask::from_bits(0), RayMask::from_bits(0), Floats(0.0F), Floats(0.0F)};
+    }
+};
+
+struct Vector16 {
+    Floats x, y, z;
+    friend HWY_INLINE Vector16 operator-(const Vector16& a, const Vector16& b) {
+        return {a.x - b.x, a.y - b.y, a.z - b.z};
+    }
+    friend HWY_INLINE Vector16 cross(const Vector16& a, const Vector16& b) {
+        return {neg_mul_add(a.z, b.y, a.y * b.z), neg_mul_add(a.x, b.z, a.z * b.x),
+                neg_mul_add(a.y, b.x, a.x * b.y)};
+    }
+    friend HWY_INLINE Floats dot(const Vector16& a, const Vector16& b) {
+        return mul_add(a.z, b.z, mul_add(a.y, b.y, a.x * b.x));
+    }
+    friend HWY_INLINE Floats norm(const Vector16& a) {
+        return max(abs(a.x), max(abs(a.y), abs(a.z)));
+    }
+    friend HWY_INLINE Floats sum(const Vector16& a) { return abs(a.x) + abs(a.y) + abs(a.z); }
+};
+
+/// For exponents of normal numbers.
+HWY_INLINE double power_of_two(int exponent) {
+    constexpr int kBias = 1023;
+    constexpr int kPlace = 52;
+    return std::bit_cast<double>(static_cast<std::uint64_t>(kBias + exponent) << kPlace);
+}
+HWY_INLINE float unit_of(const WideLeafHead& head) {
+    return static_cast<float>(power_of_two(head.exponent));
+}
+/// The first `count` lanes, or all.
+HWY_INLINE std::uint32_t first_lanes(std::uint32_t count) {
+    return count < kWideLanes ? (1U << count) - 1 : 0xffffU;
+}
+
+/// A ray at one leaf.
+struct RayAtLeaf {
+    HWY_INLINE RayAtLeaf(const RayBlock& block, std::size_t lane, const WideLeafHead& head,
+                         float entry_at)
+        : direction_sum(block.direction_sum[lane]),
+          square(block.square[lane]),
+          point_error(block.error[lane]),
+          behind(block.behind[lane]),
+          entry(entry_at),
+          unit(unit_of(head)) {
+        const double inverse = power_of_two(-head.exponent);
+        for (int axis = 0; axis < 3; ++axis) {
+            const double p =
+                block.origin[axis][lane] + static_cast<double>(entry) * block.step[axis][lane];
+            from[axis] = static_cast<float>(p);
+            at[axis] = static_cast<float>((p - static_cast<double>(head.base[axis])) * inverse);
+        }
+        direction = {Floats(block.direction[0][lane]), Floats(block.direction[1][lane]),
+                     Floats(block.direction[2][lane])};
+    }
+    /// Bounds on s from `along`, known within `error`, both in units of the grid.
+    HWY_INLINE void set_interval(LeafHits& hits, const Floats& along, const Floats& error) const {
+        // A product with a power of two, a sum, and the sums here: 4 roundings.
+        const Floats s = mul_add(along, Floats(unit), Floats(entry));
+        const Floats slack =
+            mul_add(error, Floats(unit), (abs(s) + Floats(entry)) * Floats(4 * kFloatRoundoff));
+        hits.low = s - slack;
+        hits.high = s + slack;
+    }
+
+    Vector16 direction;
+    float direction_sum;  ///< the next four: as in LocalRay
+    float square;
+    float point_error;
+    float behind;
+    float entry;
+    float unit;
+    float from[3];  ///< the point of entry, local
+    float at[3];    ///< the same on the leaf's grid
+};
+
+/// 16 corners of the leaf's triangles, seen from the ray's point.
+HWY_INLINE Vector16 load_corner(const std::uint16_t* corners, std::size_t stride, int corner,
+                                const RayAtLeaf& ray) {
+    const std::uint16_t* const x = corners + static_cast<std::size_t>(3 * corner) * stride;
+    return {Floats::from_shorts(x) - Floats(ray.at[0]),
+            Floats::from_shorts(x + stride) - Floats(ray.at[1]),
+            Floats::from_shorts(x + 2 * stride) - Floats(ray.at[2])};
+}
+
+/// Triangles whose nine coordinates stand `stride` apart from `corners` on.
+///
+/// Edge functions d . (q x p) of two corners: p and q off by e move it by |d|_1 (2 e (|p| + |q|) +
+/// 2 e^2), and 8 roundings of six terms |d|_1 M^2 / 3 and one of d add less than 18 u |d|_1 M^2.
+/// The plane: an edge vector is off by 2 e + 2 u M < 2.125 e, a component of the normal n by less
+/// than k = 2 * 2.125 e (|e1| + |e2|) + 2 (2.125 e)^2 + 4 u |e1| |e2| < 9 e (L + e) for L =
+/// max(|e1|, |e2|), L <= M; d . n by k |d|_1 and n . a by k |a|_1 + e |n|_1, with three roundings
+/// more of the terms, which the ninth e covers (9 instead of 8.5; 4 u M^2 < 0.02 e M).
+HWY_INLINE LeafHits test_triangles(const RayAtLeaf& ray, const std::uint16_t* corners,
+                                   std::size_t stride, std::uint32_t count, float scale) {
+    const Vector16 a = load_corner(corners, stride, 0, ray);
+    const Vector16 b = load_corner(corners, stride, 1, ray);
+    const Vector16 c = load_corner(corners, stride, 2, ray);
+    const Vector16& d = ray.direction;
+    const Vector16 dc = cross(d, c);
+    const Floats u = dot(b, dc);
+    const Floats v = -dot(a, dc);
+    const Floats w = dot(a, cross(d, b));
+    constexpr float kEdge =
+        4 * kCorner * kReach + 2 * kCorner * kCorner + 18 * kFloatRoundoff * kReach * kReach;
+    const Floats edge_error(scale * kEdge * (1 + 8 * kFloatRoundoff) * ray.direction_sum);
+    const Floats least = min(u, min(v, w));
+    const Floats most = max(u, max(v, w));
+    const RayMask inside = (least > edge_error) | (most < -edge_error);
+    const RayMask outside = (least < -edge_error) & (most > edge_error);
+    LeafHits hits = LeafHits::none();
+    if (((~outside).bits() & first_lanes(count)) == 0) return hits;
+
+    const Vector16 e1 = b - a;
+    const Vector16 e2 = c - a;
+    const Vector16 n = cross(e1, e2);
+    const Floats height = dot(n, a);
+    const Floats slope = dot(n, d);
+    const Floats k = (max(norm(e1), norm(e2)) + Floats(kCorner)) * Floats(scale * 9 * kCorner);
+    const Floats height_error = mul_add(k, sum(a), sum(n) * Floats(scale * kCorner));
+    const Floats slope_error = k * Floats(ray.direction_sum);
+    const Floats inverse = Floats(1.0F) / slope;
+    const Floats along = height * inverse;
+    // 1 / (1 - share) <= 1 + 2 share for a share of at most 1/2.
+    const Floats share = slope_error * abs(inverse);
+    const RayMask crossing = share < Floats(0.5F);
+    // Room for the roundings of the bound itself, and of the product above.
+    const Floats error = mul_add(abs(along), slope_error, height_error) * abs(inverse) *
+                             mul_add(share, Floats(2.0F), Floats(1 + 16 * kFloatRoundoff)) +
+                         abs(along) * Floats(4 * kFloatRoundoff);
+    ray.set_interval(hits, along, error);
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    hits.low = select(crossing, hits.low, Floats(-kInfinity));
+    hits.high = select(crossing, hits.high, Floats(kInfinity));
+    hits.sure = inside & crossing;
+    hits.open = without(~outside, hits.sure);
+    return hits;
+}
+
+/// Spheres whose centers and radii stand `stride` apart, in the local frame, off by u on each
+/// axis and by u r.
+///
+/// f = p - c is off by e = 3 u (p and c, at most 1.01 each, and the difference) + 2 u |f|. What is
+/// left of it across d, l = f - (f.d / d.d) d, is off by e and 16 roundings of |f| <= 16 u |f|; l.l
+/// by 2 |l| that + that^2.
+HWY_INLINE LeafHits test_spheres(const RayAtLeaf& ray, const float* values, std::size_t stride,
+                                 std::uint32_t count, float scale) {
+    // What stands behind a leaf is not to be taken for a float: it may be a slow, subnormal one.
+    const RayMask present = RayMask::from_bits(first_lanes(count));
+    const Vector16 f = {Floats(ray.from[0]) - Floats::load(values, present),
+                        Floats(ray.from[1]) - Floats::load(values + stride, present),
+                        Floats(ray.from[2]) - Floats::load(values + 2 * stride, present)};
+    const Floats r = Floats::load(values + 3 * stride, present);
+    const Vector16& d = ray.direction;
+    const Floats inverse(1 / ray.square);
+    const Floats middle = -dot(f, d) * inverse;
+    const Vector16 l = {mul_add(middle, d.x, f.x), mul_add(middle, d.y, f.y),
+                        mul_add(middle, d.z, f.z)};
+    const Floats across = dot(l, l);
+    const Floats depth = mul_add(r, r, -across);
+    const Floats error = mul_add(sum(f), Floats(scale * 32 * kFloatRoundoff),
+                                 Floats(scale * (8 * kFloatRoundoff + ray.point_error)));
+    const Floats depth_error = mul_add(mul_add(sum(l), Floats(2.0F), error * Floats(3.0F)), error,
+                                       mul_add(r, r, across) * Floats(scale * 16 * kFloatRoundoff));
+    const RayMask meets = depth > depth_error;
+    const RayMask misses = depth < -depth_error;
+    LeafHits hits = LeafHits::none();
+    if (!without(present, misses).any()) return hits;
+    const Floats half = sqrt(max(depth, Floats(0.0F)) * inverse);
+    // sqrt(depth +- error) differs by less than error / sqrt(depth); |d| >= 1.
+    const Floats half_error =
+        select(meets, depth_error / (half * Floats(ray.square)) + half * Floats(8 * kFloatRoundoff),
+               sqrt(depth_error + depth_error));
+    const Floats slack =
+        half_error + error +
+        (abs(middle) + Floats(ray.entry) + half) * Floats(scale * 8 * kFloatRoundoff);
+    const Floats near = Floats(ray.entry) + (middle - half);
+    const Floats far = Floats(ray.entry) + (middle + half);
+    const Floats behind(ray.behind);
+    const RayMask near_ahead = near - slack > behind;
+    const RayMask near_behind = near + slack < behind;
+    const RayMask far_ahead = far - slack > behind;
+    hits.low = select(near_behind, far - slack, near - slack);
+    hits.high = select(near_ahead, near + slack, far + slack);
+    hits.sure = meets & (near_ahead | (near_behind & far_ahead));
+    hits.open = without(~misses, hits.sure);
+    return hits;
+}
+
+}  // namespace nuvo::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // NUVO_RENDER_FAST_SINGLE_RAY_LEAF_H_

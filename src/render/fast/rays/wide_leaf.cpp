@@ -1,0 +1,212 @@
+#include "fast/rays/wide_leaf.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+// Corners are copied in 16 bits on a grid that spans the leaf's triangles: half the memory of
+// floats, and more accurate than those where a leaf is less than 1 / 256 of the scene.
+
+namespace nuvo {
+namespace {
+
+// Triangles this many times as large as the leaf's smallest would make the grid too coarse for it;
+// they are tested exactly.
+constexpr double kLargestRatio = 16;
+
+// Half a float unit of 1 to nearest, the rest for doubles' roundings.
+Bounds3T<float> rounded_outwards(const Bounds3& box) {
+    Bounds3T<float> out;
+    for (int axis = 0; axis < 3; ++axis) {
+        out.min[axis] = static_cast<float>(box.min[axis] - 0x1p-23);
+        out.max[axis] = static_cast<float>(box.max[axis] + 0x1p-23);
+    }
+    return out;
+}
+
+Triangle local_triangle(const FastScene& scene, Slot slot) {
+    const PrimitiveSource& source = scene.source(slot);
+    const auto& mesh = std::get<TriangleMesh>(scene.scene().objects[source.object].shape);
+    const Triangle t = mesh.triangle(source.triangle);
+    const LocalFrame& frame = scene.frame();
+    return {frame.local(t.a), frame.local(t.b), frame.local(t.c)};
+}
+
+double extent(const Bounds3& box) { return max_norm(box.widths()); }
+
+struct Grid {
+    Vec3<float> base{0, 0, 0};
+    int exponent = 0;
+    double unit() const { return std::ldexp(1.0, exponent); }
+};
+
+// A grid over the box. The base is rounded downwards by up to one float unit of 1.
+Grid grid_over(const Bounds3& box) {
+    Grid grid;
+    double width = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        grid.base[axis] = static_cast<float>(box.min[axis] - 0x1p-23);
+        width = std::max(width, box.max[axis] - static_cast<double>(grid.base[axis]));
+    }
+    std::frexp(width / kLargestCorner, &grid.exponent);
+    grid.exponent = std::max(grid.exponent, kLeastExponent);
+    return grid;
+}
+
+void put_floats(std::span<const float> values, std::vector<std::uint32_t>& words) {
+    for (const float value : values) words.push_back(std::bit_cast<std::uint32_t>(value));
+}
+
+void put_corners(const Grid& grid, std::span<const Triangle> triangles,
+                 std::vector<std::uint32_t>& words) {
+    std::vector<std::uint16_t> numbers;
+    const double unit = grid.unit();
+    for (const auto corner : {&Triangle::a, &Triangle::b, &Triangle::c})
+        for (int axis = 0; axis < 3; ++axis)
+            for (const Triangle& t : triangles)
+                numbers.push_back(static_cast<std::uint16_t>(std::nearbyint(
+                    ((t.*corner)[axis] - static_cast<double>(grid.base[axis])) / unit)));
+    const std::size_t place = words.size();
+    words.resize(place + (numbers.size() + 1) / 2);
+    std::memcpy(words.data() + place, numbers.data(), numbers.size() * sizeof(std::uint16_t));
+}
+
+using Polygon = std::array<Point3, 16>;
+
+// Sutherland and Hodgman 1974: the part of the polygon on one side of a plane.
+std::size_t cut_polygon(Polygon& polygon, std::size_t count, int axis, double plane, bool above) {
+    Polygon out;
+    std::size_t kept = 0;
+    const auto inside = [&](const Point3& p) {
+        return above ? p[axis] >= plane : p[axis] <= plane;
+    };
+    for (std::size_t i = 0; i < count; ++i) {
+        const Point3& a = polygon[i];
+        const Point3& b = polygon[(i + 1) % count];
+        if (inside(a)) out[kept++] = a;
+        if (inside(a) == inside(b)) continue;
+        Point3 p = a + (b - a) * ((plane - a[axis]) / (b[axis] - a[axis]));
+        p[axis] = plane;
+        out[kept++] = p;
+    }
+    polygon = out;
+    return kept;
+}
+
+}  // namespace
+
+namespace {
+
+// A leaf's primitives by what becomes of them.
+struct Sorted {
+    std::vector<Slot> triangles;
+    std::vector<Triangle> corners;
+    std::vector<Slot> spheres;
+    std::array<std::vector<float>, 4> centers_and_radii;
+    std::vector<Slot> others;
+};
+
+void sort_triangles(const FastScene& scene, std::span<const Slot> slots, Sorted& out) {
+    double smallest = std::numeric_limits<double>::infinity();
+    for (const Slot slot : slots)
+        smallest = std::min(smallest, extent(local_triangle(scene, slot).bounds()));
+    for (const Slot slot : slots) {
+        const Triangle t = local_triangle(scene, slot);
+        if (extent(t.bounds()) > kLargestRatio * smallest) {
+            out.others.push_back(slot);
+        } else {
+            out.triangles.push_back(slot);
+            out.corners.push_back(t);
+        }
+    }
+}
+
+void sort_others(const FastScene& scene, std::span<const Slot> slots, Sorted& out) {
+    for (const Slot slot : slots) {
+        if (slot >= scene.sphere_end()) {
+            out.others.push_back(slot);
+            continue;
+        }
+        const auto& s = std::get<Sphere>(scene.scene().objects[scene.source(slot).object].shape);
+        const Point3 center = scene.frame().local(s.center);
+        out.spheres.push_back(slot);
+        for (int axis = 0; axis < 3; ++axis)
+            out.centers_and_radii[axis].push_back(static_cast<float>(center[axis]));
+        out.centers_and_radii[3].push_back(static_cast<float>(s.radius * scene.frame().scale));
+    }
+}
+
+// `slots` ascend. More than a byte can count are all tested exactly: there is no telling them
+// apart, or the octree would have.
+Sorted sort_by_kind(const FastScene& scene, std::span<const Slot> slots) {
+    Sorted out;
+    if (slots.size() >= WideLeafHead::kMany) {
+        out.others.assign(slots.begin(), slots.end());
+        return out;
+    }
+    const auto spheres = std::lower_bound(slots.begin(), slots.end(), scene.triangle_end());
+    const auto count = static_cast<std::size_t>(spheres - slots.begin());
+    sort_triangles(scene, slots.first(count), out);
+    sort_others(scene, slots.subspan(count), out);
+    return out;
+}
+
+}  // namespace
+
+std::uint32_t append_leaf(const FastScene& scene, std::span<const Slot> slots,
+                          const Bounds3T<float>& box, std::vector<std::uint32_t>& words) {
+    const Sorted sorted = sort_by_kind(scene, slots);
+    Bounds3 span{Point3(box.min), Point3(box.max)};
+    for (const Triangle& t : sorted.corners) span = span.extended(t.bounds());
+    const Grid grid = span.empty() ? Grid{} : grid_over(span);
+    WideLeafHead head;
+    for (int axis = 0; axis < 3; ++axis) head.base[axis] = grid.base[axis];
+    head.exponent = static_cast<std::int8_t>(grid.exponent);
+    head.triangles = static_cast<std::uint8_t>(sorted.triangles.size());
+    head.spheres = static_cast<std::uint8_t>(sorted.spheres.size());
+    const bool many = sorted.others.size() >= WideLeafHead::kMany;
+    head.others = many ? WideLeafHead::kMany : static_cast<std::uint8_t>(sorted.others.size());
+    const std::size_t place = words.size();
+    words.resize(place + kLeafHeadWords);
+    std::memcpy(words.data() + place, &head, sizeof head);
+    if (many) words.push_back(static_cast<std::uint32_t>(sorted.others.size()));
+    for (const auto* part : {&sorted.triangles, &sorted.spheres, &sorted.others})
+        words.insert(words.end(), part->begin(), part->end());
+    for (const auto& values : sorted.centers_and_radii) put_floats(values, words);
+    put_corners(grid, sorted.corners, words);
+    return static_cast<std::uint32_t>(place);
+}
+
+Bounds3T<float> whole_box(const FastScene& scene, Slot slot) {
+    const Bounds3& world = scene.primitives().item_boxes[scene.id(slot)];
+    return rounded_outwards({scene.frame().local(world.min), scene.frame().local(world.max)});
+}
+
+Bounds3T<float> clipped_box(const FastScene& scene, Slot slot, const Bounds3T<float>& voxel) {
+    Bounds3 box;
+    if (slot < scene.triangle_end()) {
+        const Triangle t = local_triangle(scene, slot);
+        Polygon polygon{t.a, t.b, t.c};
+        std::size_t count = 3;
+        const Bounds3 whole = t.bounds();
+        for (int axis = 0; axis < 3 && count > 0; ++axis) {
+            // Room for the corners' own rounding.
+            const double low = voxel.min[axis] - 0x1p-40;
+            const double high = voxel.max[axis] + 0x1p-40;
+            if (whole.min[axis] < low) count = cut_polygon(polygon, count, axis, low, true);
+            if (whole.max[axis] > high) count = cut_polygon(polygon, count, axis, high, false);
+        }
+        for (std::size_t i = 0; i < count; ++i) box = box.extended(polygon[i]);
+    } else {
+        const Bounds3& world = scene.primitives().item_boxes[scene.id(slot)];
+        box = {scene.frame().local(world.min), scene.frame().local(world.max)};
+    }
+    if (box.empty()) return {};
+    const Bounds3T<float> out = rounded_outwards(box);
+    return {max(out.min, voxel.min), min(out.max, voxel.max)};
+}
+
+}  // namespace nuvo

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "fast/scene/fast_scene.h"
+
+// The octree as single rays like it. A ray of its own has no neighbours to share a step with, so a
+// step is made to decide more: a node holds up to 16 voxels of one, two or three levels below it
+// (Dammertz, Hanika and Keller 2008, "Shallow bounding volume hierarchies"), each with the tight
+// box of what it holds instead of its planes, and a leaf holds as many primitives as a register.
+// Subtrees that these boxes and leaves make needless are taken back.
+
+namespace nuvo {
+
+inline constexpr std::size_t kWideLanes = 16;
+
+/// Voxels side by side; behind the last one boxes that no ray meets (low +inf, high -inf).
+struct alignas(64) WideNode {
+    float low[3][kWideLanes];
+    float high[3][kWideLanes];
+    std::uint32_t child[kWideLanes];  ///< index of a node; with WideOctree::kLeaf: place of a leaf
+    /// The lanes from near to far for rays whose direction's sign bits are 1 x + 2 y + 4 z: number
+    /// i stands in bits 4 (i / 2) to 4 (i / 2) + 3 of word i % 2. What separates two voxels is a
+    /// plane of the octree, so that one order serves all rays of the same signs. (A box may reach
+    /// out of its voxel: the order is for speed.)
+    std::uint32_t order[8][2];
+};
+
+/// Copies of a leaf's primitives, side by side, in 32-bit words from its place on: this head, then
+/// the slots of triangles, spheres and others; center x, y, z and radius of the spheres in the
+/// local frame; corners of the triangles (a.x of all, a.y of all ... c.z of all) in 16 bits each,
+/// local coordinate = base + unit * number. `others` are to be tested exactly.
+struct WideLeafHead {
+    float base[3];
+    std::int8_t exponent;  ///< unit = 2^exponent
+    std::uint8_t triangles;
+    std::uint8_t spheres;
+    /// kMany: more than fit into a byte, in the word behind the head.
+    std::uint8_t others;
+
+    static constexpr std::uint8_t kMany = 255;
+};
+inline constexpr std::size_t kLeafHeadWords = sizeof(WideLeafHead) / sizeof(std::uint32_t);
+static_assert(kLeafHeadWords == 4);
+
+/// How far a copied corner lies from base + unit * number, in units: rounded to nearest, plus what
+/// three double roundings of local coordinates can add while the unit is at least 2^-38.
+inline constexpr double kCornerRounding = 0.5 + 0x1p-10;
+/// Smaller leaves are copied as coarsely as 2 to this.
+inline constexpr int kLeastExponent = -38;
+/// Largest number of a corner.
+inline constexpr double kLargestCorner = 65535;
+
+struct WideOctree {
+    static constexpr std::uint32_t kLeaf = 1U << 31;
+
+    explicit WideOctree(const FastScene& scene);
+
+    std::size_t memory_bytes() const {
+        return nodes.size() * sizeof(WideNode) + leaves.size() * sizeof(std::uint32_t);
+    }
+
+    std::vector<WideNode> nodes;        ///< 0 is the root
+    std::vector<std::uint32_t> leaves;  ///< with room behind the last for a load of any lanes
+    float reach = 0;                    ///< the largest |coordinate| of a box
+};
+
+}  // namespace nuvo

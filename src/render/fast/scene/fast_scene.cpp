@@ -1,0 +1,173 @@
+#include "fast/scene/fast_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "fast/scene/local_triangles.h"
+#include "fast/scene/octant_tests.h"
+#include "fast/scene/slot_order.h"
+#include "fast/simd/dispatch.h"
+#include "nuvo/math/big_vector.h"
+#include "nuvo/math/parallel.h"
+#include "nuvo/octree/compact_build.h"
+
+// Everything that is rounded here is rounded outwards: a box holds the true primitive as the local
+// frame's exact mapping places it. The floats made of corners and centres serve the octree's
+// construction only and are gone with it.
+
+namespace nuvo {
+namespace {
+
+LocalFrame frame_of(const Bounds3& box) {
+    if (box.empty()) return {};
+    LocalFrame frame;
+    frame.center = box.center();
+    const double half = max_norm(box.max * 0.5 - box.min * 0.5);
+    int exponent = 0;
+    std::frexp(half, &exponent);  // half < 2^exponent
+    // A box thinner than 2^-1023 stays thinner than 1.
+    if (half > 0)
+        frame.scale =
+            std::ldexp(1.0, std::min(-exponent, std::numeric_limits<double>::max_exponent - 1));
+    return frame;
+}
+
+// Below (above) the true number from which `nearest` was rounded: by one unit in the last place and
+// more, at least by the smallest normal number. Local coordinates in double are off by a relative
+// 2^-53 or an absolute 2^-1074, of which nothing matters here.
+float below(float nearest) {
+    return nearest - (std::fabs(nearest) * 0x1p-23F + std::numeric_limits<float>::min());
+}
+float above(float nearest) { return -below(-nearest); }
+
+Bounds3T<float> widened(const Bounds3T<float>& box) {
+    return {{below(box.min.x), below(box.min.y), below(box.min.z)},
+            {above(box.max.x), above(box.max.y), above(box.max.z)}};
+}
+
+Bounds3T<float> local_box(const LocalFrame& frame, const Bounds3& box) {
+    return widened({Vec3<float>(frame.local(box.min)), Vec3<float>(frame.local(box.max))});
+}
+
+// What the octree's construction needs, by slot.
+struct LocalItems {
+    BigVector<Bounds3T<float>> boxes;
+    BigVector<LocalTriangle> triangles;
+    BigVector<LocalSphere> spheres;
+};
+
+class LocalItemsMaker {
+  public:
+    explicit LocalItemsMaker(const FastScene& fast) : fast_(fast), frame_(fast.frame()) {
+        items_.boxes.resize(fast.slot_end());
+        items_.triangles.resize(fast.triangle_end());
+        items_.spheres.resize(fast.sphere_end() - fast.triangle_end());
+    }
+
+    LocalItems make(int threads) && {
+        const InstructionSet isa = resolved(InstructionSet::kBest);
+        const LocalTrianglesJob job{frame_, items_.triangles.data(), items_.boxes.data()};
+        for_each_chunk(fast_, threads,
+                       [&](const TriangleChunk& chunk) { make_local_triangles(job, chunk, isa); });
+        for_each_round_part(fast_, threads, [&](RoundSpan rounds) {
+            for (const RoundShapeSlot& round : rounds) {
+                fast_.soon(round);
+                put_round(round);
+            }
+        });
+        return std::move(items_);
+    }
+
+  private:
+    void put_round(const RoundShapeSlot& round) {
+        items_.boxes[round.slot] = local_box(frame_, fast_.primitives().item_boxes[round.id]);
+        if (round.slot >= fast_.sphere_end()) return;
+        const Sphere& sphere = std::get<Sphere>(fast_.object(round.id).shape);
+        items_.spheres[round.slot - fast_.triangle_end()] = {
+            Vec3<float>(frame_.local(sphere.center)),
+            static_cast<float>(sphere.radius * frame_.scale)};
+    }
+
+    const FastScene& fast_;
+    const LocalFrame& frame_;
+    LocalItems items_;
+};
+
+// Items ascend, so those of a kind stand together. Of an ellipsoid the box decides.
+OctantTest octant_test(const LocalItems& items) {
+    const auto triangle_end = static_cast<std::uint32_t>(items.triangles.size());
+    const auto sphere_end = triangle_end + static_cast<std::uint32_t>(items.spheres.size());
+    return [&items, triangle_end, sphere_end](const CutVoxel& voxel,
+                                              std::span<const std::uint32_t> slots,
+                                              std::span<std::uint8_t> masks) {
+        const auto place = [&](std::uint32_t end) {
+            return static_cast<std::size_t>(std::lower_bound(slots.begin(), slots.end(), end) -
+                                            slots.begin());
+        };
+        const std::size_t triangles = triangle_end == 0 ? 0 : place(triangle_end);
+        const std::size_t spheres = sphere_end == triangle_end ? triangles : place(sphere_end);
+        if (triangles > 0)
+            clear_octants(items.triangles, voxel, slots.first(triangles), masks.first(triangles));
+        if (spheres > triangles)
+            clear_octants(items.spheres, triangle_end, voxel,
+                          slots.subspan(triangles, spheres - triangles),
+                          masks.subspan(triangles, spheres - triangles));
+    };
+}
+
+CompactOctree octree_of(const LocalItems& items, CompactBuildOptions options) {
+    options.overlaps = octant_test(items);
+    return build_compact_octree(items.boxes, options);
+}
+
+}  // namespace
+
+FastScene::FastScene(const Scene& scene, const Primitives& primitives, OctreeType type, int threads)
+    : scene_(scene), primitives_(primitives) {
+    Bounds3 box;
+    for (const KindSummary& kind : primitives.kinds) box = box.extended(kind.box);
+    frame_ = frame_of(box);
+    if (!box.empty()) largest_coordinate_ = std::max(max_norm(box.min), max_norm(box.max));
+    const auto count = [&](PrimitiveKind kind) {
+        return static_cast<Slot>(primitives.kind(kind).count);
+    };
+    triangle_end_ = count(PrimitiveKind::kTriangle);
+    sphere_end_ = triangle_end_ + count(PrimitiveKind::kSphere);
+    slot_end_ = sphere_end_ + count(PrimitiveKind::kEllipsoid);
+    order_slots(box);
+    CompactBuildOptions options;
+    options.rule = type == OctreeType::kUniform ? CutRule::kSpatial : CutRule::kSweep;
+    options.threads = threads;
+    LocalItems items = LocalItemsMaker(*this).make(options.threads);
+    octree_ = octree_of(items, options);
+    triangles_ = std::move(items.triangles);
+}
+
+void FastScene::order_slots(const Bounds3& box) {
+    if (primitives_.sorted_by_kind && slot_end_ == triangle_end_) return;
+    std::vector<PrimitiveId> of_kind[3];
+    for (PrimitiveId id = 0; id < slot_end_; ++id)
+        of_kind[static_cast<std::size_t>(kind_of(object(id).shape))].push_back(id);
+    for (const PrimitiveKind kind : {PrimitiveKind::kSphere, PrimitiveKind::kEllipsoid})
+        sort_in_space(primitives_, box, of_kind[static_cast<std::size_t>(kind)]);
+    std::vector<Slot> slots(slot_end_);
+    bool document_order = true;
+    for (const std::vector<PrimitiveId>& ids : of_kind)
+        for (const PrimitiveId id : ids) {
+            const auto slot = static_cast<Slot>(ids_.size());
+            document_order &= id == slot;
+            slots[id] = slot;
+            ids_.push_back(id);
+        }
+    rounds_.reserve(slot_end_ - triangle_end_);
+    for (PrimitiveId id = 0; id < slot_end_; ++id)
+        if (slots[id] >= triangle_end_) rounds_.push_back({id, slots[id]});
+    if (document_order) ids_ = {};
+}
+
+CompactOctree FastScene::octree(const CompactBuildOptions& options) const {
+    return octree_of(LocalItemsMaker(*this).make(options.threads), options);
+}
+
+}  // namespace nuvo

@@ -1,0 +1,97 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "fast/scene/octant_tests.h"
+#include "nuvo/math/big_vector.h"
+#include "nuvo/math/bounds.h"
+#include "nuvo/octree/compact_build.h"
+#include "nuvo/render/fast.h"
+#include "nuvo/render/primitives.h"
+#include "nuvo/scene/scene.h"
+
+namespace nuvo {
+
+/// The frame in which floats are good for the scene: moved so that its box lies around 0 and scaled
+/// by a power of two so that it is about 1 wide.
+struct LocalFrame {
+    Point3 center;
+    double scale = 1;  ///< a power of two
+
+    /// Three roundings at most: of the difference, in units of the larger operand; none of the
+    /// product unless it is subnormal.
+    Point3 local(const Point3& p) const { return (p - center) * scale; }
+};
+
+/// A primitive's place: triangles first, in document order, then spheres, then ellipsoids, each in
+/// an order of their own.
+using Slot = std::uint32_t;
+inline constexpr Slot kNoSlot = ~Slot{0};
+
+/// A sphere or ellipsoid.
+struct RoundShapeSlot {
+    PrimitiveId id;
+    Slot slot;
+};
+using RoundSpan = std::span<const RoundShapeSlot>;
+
+/// The scene sorted by kind, with its octree in the local frame: all that does not depend on camera
+/// and lights.
+class FastScene {
+  public:
+    FastScene(const Scene& scene, const Primitives& primitives, OctreeType type, int threads);
+
+    const Scene& scene() const { return scene_; }
+    const Primitives& primitives() const { return primitives_; }
+    const LocalFrame& frame() const { return frame_; }
+    /// Holds every triangle; world space.
+    const Bounds3& triangle_box() const { return primitives_.kind(PrimitiveKind::kTriangle).box; }
+    /// Of all boxes of primitives; world space.
+    double largest_coordinate() const { return largest_coordinate_; }
+    const CompactOctree& octree() const { return octree_; }
+    /// Another one; `overlaps` of the options is filled in.
+    CompactOctree octree(const CompactBuildOptions& options) const;
+
+    Slot triangle_end() const { return triangle_end_; }
+    Slot sphere_end() const { return sphere_end_; }
+    Slot slot_end() const { return slot_end_; }
+    /// Document order's name of the primitive.
+    PrimitiveId id(Slot slot) const { return ids_.empty() ? slot : ids_[slot]; }
+    const PrimitiveSource& source(Slot slot) const { return primitives_.sources[id(slot)]; }
+    const Object& object(PrimitiveId id) const {
+        return scene_.objects[primitives_.sources[id].object];
+    }
+    /// All spheres and ellipsoids in document order, in which the scene is read fastest.
+    RoundSpan rounds() const { return rounds_; }
+    /// One that comes soon after one of rounds(), if there is any; its object is asked for.
+    const RoundShapeSlot* soon(const RoundShapeSlot& round) const {
+        constexpr std::ptrdiff_t kAhead = 12;
+        if (rounds_.data() + rounds_.size() - &round <= kAhead) return nullptr;
+        const RoundShapeSlot* const then = &round + kAhead;
+        const Object* const soon = &object(then->id);
+        __builtin_prefetch(soon);
+        __builtin_prefetch(reinterpret_cast<const char*>(soon + 1) - 1);
+        return then;
+    }
+    /// Corners rounded to nearest, by slot.
+    const BigVector<LocalTriangle>& triangles() const { return triangles_; }
+
+  private:
+    void order_slots(const Bounds3& box);
+
+    const Scene& scene_;
+    const Primitives& primitives_;
+    LocalFrame frame_;
+    double largest_coordinate_ = 0;
+    Slot triangle_end_ = 0;
+    Slot sphere_end_ = 0;
+    Slot slot_end_ = 0;
+    std::vector<PrimitiveId> ids_;  // empty: the same order
+    BigVector<RoundShapeSlot> rounds_;
+    BigVector<LocalTriangle> triangles_;
+    CompactOctree octree_;
+};
+
+}  // namespace nuvo

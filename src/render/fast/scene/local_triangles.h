@@ -1,0 +1,20 @@
+#pragma once
+
+#include "fast/scene/octant_tests.h"
+#include "fast/scene/triangle_chunk.h"
+#include "nuvo/render/fast.h"
+
+namespace nuvo {
+
+/// Triangles in the local frame and the boxes around them, rounded outwards.
+struct LocalTrianglesJob {
+    const LocalFrame& frame;
+    LocalTriangle* triangles;  ///< of slot 0
+    Bounds3T<float>* boxes;    ///< of slot 0
+};
+
+/// Makes those of a chunk.
+void make_local_triangles(const LocalTrianglesJob& job, const TriangleChunk& chunk,
+                          InstructionSet isa);
+
+}  // namespace nuvo

@@ -1,0 +1,86 @@
+#include "fast/scene/triangle_chunk.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "nuvo/math/parallel.h"
+
+namespace nuvo {
+namespace {
+
+// Meshes are asked for by this many triangles before they are needed.
+constexpr Slot kAhead = 48;
+
+// The lists of a small mesh: those of a large one are longer, and read in about their order.
+void ask_for(const TriangleMesh& mesh) {
+    constexpr std::size_t kLine = 64;
+    constexpr std::size_t kLines = 3;
+    const auto* const positions = reinterpret_cast<const char*>(mesh.positions.data());
+    const auto* const triangles = reinterpret_cast<const char*>(mesh.triangles.data());
+    for (std::size_t i = 0; i < kLines; ++i) __builtin_prefetch(positions + i * kLine);
+    __builtin_prefetch(triangles);
+    __builtin_prefetch(triangles + kLine);
+}
+
+}  // namespace
+
+void TriangleChunk::fetch(const FastScene& scene, Slot first_slot, Slot last_slot) {
+    first = first_slot;
+    last = last_slot;
+    const std::vector<Object>& objects = scene.scene().objects;
+    const auto mesh_of = [&](std::uint32_t object) -> const TriangleMesh& {
+        return *std::get_if<TriangleMesh>(&objects[object].shape);
+    };
+    Slot slot = first;
+    while (slot < last) {
+        const std::uint32_t object = scene.source(slot).object;
+        const TriangleMesh& mesh = mesh_of(object);
+        if (scene.triangle_end() - slot > kAhead)
+            ask_for(mesh_of(scene.source(slot + kAhead).object));
+        for (; slot < last && scene.source(slot).object == object; ++slot) {
+            const IndexTriple& corners = mesh.triangles[scene.source(slot).triangle];
+            const Slot place = slot - first;
+            auto& to = batches[place / TriangleBatch::kSize].corner;
+            const std::size_t lane = place % TriangleBatch::kSize;
+            for (std::size_t i = 0; i < 3; ++i) {
+                const Point3& p = mesh.positions[corners[i]];
+                to[3 * i][lane] = p.x;
+                to[3 * i + 1][lane] = p.y;
+                to[3 * i + 2][lane] = p.z;
+            }
+        }
+    }
+    for (; (slot - first) % TriangleBatch::kSize != 0; ++slot)
+        for (auto& column : batches[(slot - first) / TriangleBatch::kSize].corner)
+            column[(slot - first) % TriangleBatch::kSize] = column[0];
+}
+
+void for_each_chunk(const FastScene& scene, int threads,
+                    const std::function<void(const TriangleChunk&)>& work) {
+    // A thread takes so many chunks at a time: few, so that a small scene's can be shared.
+    constexpr std::size_t kChunksAtOnce = 8;
+    constexpr std::size_t kStep = kChunksAtOnce * TriangleChunk::kTriangles;
+    const std::size_t end = scene.triangle_end();
+    for_each_index(threads, (end + kStep - 1) / kStep, [&](std::size_t i, int) {
+        TriangleChunk chunk;
+        const std::size_t last = std::min(end, (i + 1) * kStep);
+        for (std::size_t first = i * kStep; first < last; first += TriangleChunk::kTriangles) {
+            chunk.fetch(
+                scene, static_cast<Slot>(first),
+                static_cast<Slot>(std::min<std::size_t>(last, first + TriangleChunk::kTriangles)));
+            work(chunk);
+        }
+    });
+}
+
+void for_each_round_part(const FastScene& scene, int threads,
+                         const std::function<void(RoundSpan)>& work) {
+    constexpr std::size_t kStep = 256;
+    const RoundSpan all = scene.rounds();
+    for_each_part(threads, all.size(), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; i += kStep)
+            work(all.subspan(i, std::min(kStep, end - i)));
+    });
+}
+
+}  // namespace nuvo

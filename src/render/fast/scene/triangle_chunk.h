@@ -1,0 +1,72 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <functional>
+
+#include "fast/scene/fast_scene.h"
+
+// Corners lie behind an object, its mesh and the mesh's lists: several times as far away as the
+// numbers that are made of them. So they are fetched once for all tables, by chunks that stay in
+// the nearest cache, and asked for before they are needed.
+
+namespace nuvo {
+
+/// The corners of 8 triangles in world space by coordinate: a.x, a.y, a.z, b.x ... c.z.
+struct alignas(64) TriangleBatch {
+    static constexpr std::size_t kSize = 8;
+    double corner[9][kSize];
+
+    Triangle triangle(std::size_t i) const {
+        return {{corner[0][i], corner[1][i], corner[2][i]},
+                {corner[3][i], corner[4][i], corner[5][i]},
+                {corner[6][i], corner[7][i], corner[8][i]}};
+    }
+};
+
+/// Some triangles side by side, first a multiple of TriangleBatch::kSize.
+struct TriangleChunk {
+    static constexpr Slot kTriangles = 256;
+
+    /// Fetches the triangles of [first, last).
+    void fetch(const FastScene& scene, Slot first_slot, Slot last_slot);
+
+    Slot first = 0;
+    Slot last = 0;
+    std::array<TriangleBatch, kTriangles / TriangleBatch::kSize> batches;
+
+    /// Calls work(batch, its first slot, its number of triangles); beyond that number a batch is
+    /// filled up with its first triangle.
+    template <typename Work>
+    void for_each_batch(Work&& work) const {
+        for (Slot slot = first; slot < last; slot += TriangleBatch::kSize)
+            work(batches[(slot - first) / TriangleBatch::kSize], slot,
+                 std::min<std::size_t>(TriangleBatch::kSize, last - slot));
+    }
+};
+
+/// Calls work(chunk) for all triangles of the scene, on up to `threads` threads at a time.
+void for_each_chunk(const FastScene& scene, int threads,
+                    const std::function<void(const TriangleChunk&)>& work);
+
+/// Whether a table's constructor fills what it holds for each triangle and round shape, or leaves
+/// that to fill_tables().
+enum class TableFilling : std::uint8_t { kNow, kLater };
+
+/// Calls work(some) for all round shapes, so few at a time that their objects are still at hand
+/// when the next table asks.
+void for_each_round_part(const FastScene& scene, int threads,
+                         const std::function<void(RoundSpan)>& work);
+
+/// Calls take(chunk) of each table for all triangles, take_rounds(some) for all round shapes, and
+/// finish().
+template <typename... Tables>
+void fill_tables(const FastScene& scene, int threads, Tables&... tables) {
+    for_each_chunk(scene, threads, [&](const TriangleChunk& chunk) { (tables.take(chunk), ...); });
+    for_each_round_part(scene, threads,
+                        [&](RoundSpan rounds) { (tables.take_rounds(rounds), ...); });
+    (tables.finish(), ...);
+}
+
+}  // namespace nuvo

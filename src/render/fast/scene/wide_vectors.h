@@ -1,0 +1,100 @@
+// No #pragma once: compiled once for each instruction set (see hwy/foreach_target.h).
+#if defined(NUVO_RENDER_FAST_WIDE_VECTORS_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef NUVO_RENDER_FAST_WIDE_VECTORS_H_
+#undef NUVO_RENDER_FAST_WIDE_VECTORS_H_
+#else
+#define NUVO_RENDER_FAST_WIDE_VECTORS_H_
+#endif
+
+#include <cstddef>
+#include <cstring>
+
+#include "fast/scene/triangle_chunk.h"
+#include "fast/simd/lanes.h"
+
+// Vectors of 8 doubles, one for each triangle of a batch, and the way from such columns to records
+// of 16 floats side by side.
+
+HWY_BEFORE_NAMESPACE();
+namespace nuvo::HWY_NAMESPACE {
+
+inline constexpr std::size_t kBatch = TriangleBatch::kSize;
+using Wide = Lanes<double, kBatch>;
+
+/// Each number rounded to the nearest float.
+HWY_INLINE void store_rounded(const Wide& v, float* to) {
+    constexpr std::size_t kPart = Wide::Shape::kPart;
+    const hn::FixedTag<float, kPart> floats;
+    for (std::size_t i = 0; i < Wide::Shape::kParts; ++i)
+        hn::StoreU(hn::DemoteTo(floats, v.part[i]), floats, to + i * kPart);
+}
+
+struct Wide3 {
+    Wide x, y, z;
+};
+HWY_INLINE Wide3 wide(const Vector3& v) { return {Wide(v.x), Wide(v.y), Wide(v.z)}; }
+/// From three columns.
+HWY_INLINE Wide3 load_wide(const double (*columns)[kBatch]) {
+    return {Wide::load(columns[0]), Wide::load(columns[1]), Wide::load(columns[2])};
+}
+HWY_INLINE Wide3 operator+(const Wide3& a, const Wide3& b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+HWY_INLINE Wide3 operator-(const Wide3& a, const Wide3& b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+HWY_INLINE Wide3 operator*(const Wide3& a, const Wide& s) { return {a.x * s, a.y * s, a.z * s}; }
+HWY_INLINE Wide3 cross(const Wide3& a, const Wide3& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+HWY_INLINE Wide dot(const Wide3& a, const Wide3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+HWY_INLINE Wide norm1(const Wide3& a) { return abs(a.x) + abs(a.y) + abs(a.z); }
+HWY_INLINE Wide max_norm(const Wide3& a) { return max(abs(a.x), max(abs(a.y), abs(a.z))); }
+HWY_INLINE Wide3 select(const Wide::Mask& mask, const Wide3& a, const Wide3& b) {
+    return {select(mask, a.x, b.x), select(mask, a.y, b.y), select(mask, a.z, b.z)};
+}
+
+/// The numbers of a batch's records, [place / 4][place % 4][triangle].
+struct alignas(64) RecordColumns {
+    float at[4][4][kBatch];
+
+    /// Record i of the first `count` goes to out[16 i] and on.
+    HWY_INLINE void write(float* out, std::size_t count) const {
+        if (count == kBatch) return transpose(out);
+        alignas(64) float records[16 * kBatch];
+        transpose(records);
+        std::memcpy(out, records, 16 * sizeof(float) * count);
+    }
+
+  private:
+    HWY_INLINE void transpose(float* out) const {
+#if HWY_TARGET == HWY_SCALAR
+        for (std::size_t i = 0; i < kBatch; ++i)
+            for (std::size_t k = 0; k < 16; ++k) out[16 * i + k] = at[k / 4][k % 4][i];
+#else
+        const hn::FixedTag<float, 4> four;
+        for (std::size_t i = 0; i < kBatch; i += 4) {
+            for (std::size_t group = 0; group < 4; ++group) {
+                const auto a = hn::Load(four, at[group][0] + i);
+                const auto b = hn::Load(four, at[group][1] + i);
+                const auto c = hn::Load(four, at[group][2] + i);
+                const auto d = hn::Load(four, at[group][3] + i);
+                const auto low_ab = hn::InterleaveLower(four, a, b);
+                const auto low_cd = hn::InterleaveLower(four, c, d);
+                const auto high_ab = hn::InterleaveUpper(four, a, b);
+                const auto high_cd = hn::InterleaveUpper(four, c, d);
+                float* const to = out + 16 * i + 4 * group;
+                hn::StoreU(hn::ConcatLowerLower(four, low_cd, low_ab), four, to);
+                hn::StoreU(hn::ConcatUpperUpper(four, low_cd, low_ab), four, to + 16);
+                hn::StoreU(hn::ConcatLowerLower(four, high_cd, high_ab), four, to + 32);
+                hn::StoreU(hn::ConcatUpperUpper(four, high_cd, high_ab), four, to + 48);
+            }
+        }
+#endif
+    }
+};
+
+}  // namespace nuvo::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // NUVO_RENDER_FAST_WIDE_VECTORS_H_

@@ -1,0 +1,100 @@
+// No #pragma once: compiled once for each instruction set (see hwy/foreach_target.h).
+#if defined(NUVO_RENDER_FAST_BACKGROUND_LANES_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef NUVO_RENDER_FAST_BACKGROUND_LANES_H_
+#undef NUVO_RENDER_FAST_BACKGROUND_LANES_H_
+#else
+#define NUVO_RENDER_FAST_BACKGROUND_LANES_H_
+#endif
+
+#include <limits>
+
+#include "fast/shading/curved_lanes.h"
+#include "fast/shading/shading.h"
+#include "fast/simd/lanes.h"
+#include "fast/simd/vector_math.h"
+
+// The background along 16 rays, as background.cpp has it: one color, the blend of eq. 36, or the
+// bands of the standard's gradients.
+
+HWY_BEFORE_NAMESPACE();
+namespace nuvo::HWY_NAMESPACE {
+
+/// Colors times 255, and a bound on the error of all three.
+struct PixelColors {
+    Floats channel[3];
+    Floats error;
+};
+
+/// The sine of the rays' height, d_y / |d|, within ShadingRays::sine_error.
+HWY_INLINE Floats sine_of_height(const BlockDirections& directions) {
+    return directions.at(1) * inverse_sqrt(directions.square());
+}
+
+/// The colors of one list of bands, `angle` from its pole within `angle_error`. A lane whose bounds
+/// lie in two bands is unknown.
+HWY_INLINE PixelColors banded(const std::vector<BackgroundBand>& bands, const Floats& angle,
+                              const Floats& angle_error) {
+    const Floats least = angle - angle_error;
+    const Floats most = angle + angle_error;
+    PixelColors out;
+    for (Floats& c : out.channel) c = Floats(0.0F);
+    out.error = Floats(std::numeric_limits<float>::infinity());
+    RayMask open = RayMask::from_bits(0xffff);  // beyond all bands so far
+    for (const BackgroundBand& band : bands) {
+        const RayMask here = open & (most <= Floats(band.upper));
+        const Floats width(band.inverse_width);
+        const Floats part = (angle - Floats(band.lower)) * width;
+        for (int c = 0; c < 3; ++c)
+            out.channel[c] = select(
+                here, mul_add(part, Floats(band.step[c]), Floats(band.color[c])), out.channel[c]);
+        const Floats error =
+            mul_add(angle_error * width, Floats(1.01F * band.step_most),
+                    Floats(4 * kFloatRoundoff * band.most + 4 * kFloatRoundoff * band.step_most));
+        out.error = select(here, error, out.error);
+        open = without(open, here) & (least > Floats(band.upper));
+    }
+    return out;
+}
+
+HWY_INLINE PixelColors gradient(const ShadingBackground& background, const Floats& y,
+                                float sine_error) {
+    const Floats one(1.0F);
+    const Floats error(sine_error);  // then those of angles up to pi
+    const Floats margin(kArcError + 8 * kFloatRoundoff);
+    const Floats least = arc_cosine(min(y + error, one)) - margin;
+    const Floats most = arc_cosine(max(y - error, -one)) + margin;
+    const Floats half = (most - least) * Floats(0.5F) + Floats(4 * kFloatRoundoff);
+    const Floats from_zenith = (most + least) * Floats(0.5F);
+    PixelColors out = banded(background.sky, from_zenith, half);
+    if (!background.has_ground) return out;
+    constexpr float kPi = 3.14159265F;
+    const PixelColors ground =
+        banded(background.ground, Floats(kPi) - from_zenith, half + Floats(8 * kFloatRoundoff));
+    const RayMask below = y < Floats(0.0F);
+    for (int c = 0; c < 3; ++c) out.channel[c] = select(below, ground.channel[c], out.channel[c]);
+    out.error = select(below, ground.error, out.error);
+    out.error = select(abs(y) > error, out.error,
+                       Floats(std::numeric_limits<float>::infinity()));  // the horizon
+    return out;
+}
+
+HWY_INLINE PixelColors background_colors(const ShadingTables& tables,
+                                         const BlockDirections& directions) {
+    const ShadingBackground& background = tables.background;
+    if (background.kind == ShadingBackground::Kind::kGradient)
+        return gradient(background, sine_of_height(directions), tables.rays.sine_error);
+    PixelColors out;
+    out.error = Floats(background.error);
+    const bool blend = background.kind == ShadingBackground::Kind::kBlend;
+    const Floats y = blend ? sine_of_height(directions) : Floats(0.0F);
+    for (std::size_t c = 0; c < 3; ++c)
+        out.channel[c] = blend
+                             ? mul_add(y, Floats(background.slope[c]), Floats(background.middle[c]))
+                             : Floats(background.middle[c]);
+    return out;
+}
+
+}  // namespace nuvo::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // NUVO_RENDER_FAST_BACKGROUND_LANES_H_

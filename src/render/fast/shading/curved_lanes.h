@@ -1,0 +1,349 @@
+// No #pragma once: compiled once for each instruction set (see hwy/foreach_target.h).
+#if defined(NUVO_RENDER_FAST_CURVED_LANES_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef NUVO_RENDER_FAST_CURVED_LANES_H_
+#undef NUVO_RENDER_FAST_CURVED_LANES_H_
+#else
+#define NUVO_RENDER_FAST_CURVED_LANES_H_
+#endif
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "fast/shading/shading.h"
+#include "fast/simd/lanes.h"
+#include "fast/simd/vector_math.h"
+
+// Surfaces whose normal or color varies within the primitive: for each primitive that a block
+// shows, its functions of the pixel are evaluated for all 16 lanes. The vectors f x d (sphere) and
+// the edge functions (triangle) are affine in the pixel, so a lane costs a few operations.
+
+HWY_BEFORE_NAMESPACE();
+namespace nuvo::HWY_NAMESPACE {
+
+/// The ray directions of a block's lanes.
+class BlockDirections {
+  public:
+    HWY_INLINE BlockDirections(const ShadingTables& tables, const Tile& tile, int b)
+        : rays_(tables.rays),
+          x_(static_cast<std::size_t>(tile.x + lane_x(b * kBlockLanes))),
+          y_(static_cast<std::size_t>(tile.y + lane_y(b * kBlockLanes)) * kBlockSide) {}
+
+    /// Within ShadingRays::error, all axes together.
+    HWY_INLINE Floats at(int axis) const {
+        return Floats::load_repeated(rays_.column[axis].data() + x_) +
+               Floats::load(rays_.row[axis].data() + y_);
+    }
+    /// d.d
+    HWY_INLINE Floats square() const {
+        return Floats::load_repeated(rays_.column_square.data() + x_) +
+               Floats::load(rays_.row_square.data() + y_);
+    }
+
+  private:
+    const ShadingRays& rays_;
+    std::size_t x_;
+    std::size_t y_;
+};
+
+/// The steps of a block's lanes to the right and down.
+struct alignas(64) BlockSteps {
+    constexpr BlockSteps() {
+        for (int lane = 0; lane < kBlockLanes; ++lane) {
+            right[lane] = static_cast<float>(lane_x(lane));
+            down[lane] = static_cast<float>(lane_y(lane));
+            right_double[lane] = lane_x(lane);
+            down_double[lane] = lane_y(lane);
+        }
+    }
+    float right[kBlockLanes] = {};
+    float down[kBlockLanes] = {};
+    double right_double[kBlockLanes] = {};
+    double down_double[kBlockLanes] = {};
+};
+inline constexpr BlockSteps kSteps;
+
+/// first + right * (steps right) + down * (steps down).
+HWY_INLINE Doubles affine(double first, double right, double down) {
+    return mul_add(Doubles::load(kSteps.right_double), Doubles(right),
+                   mul_add(Doubles::load(kSteps.down_double), Doubles(down), Doubles(first)));
+}
+
+/// From an estimate in float one step of Newton's, which squares its error: within 2^-44.
+HWY_INLINE Doubles precise_reciprocal(const Doubles& v) {
+    const Doubles e = doubles_from(reciprocal(floats_from(v)));
+    return e * neg_mul_add(v, e, Doubles(2.0));
+}
+
+/// Fills lanes of one block.
+class CurvedLanes {
+  public:
+    CurvedLanes(const ShadingTables& tables, Tile& tile, ShadingScratch& scratch,
+                const BlockDirections& directions, int b)
+        : tables_(tables),
+          scene_(tables.scene),
+          tile_(tile),
+          scratch_(scratch),
+          first_(b * kBlockLanes),
+          directions_(directions),
+          block_(b),
+          center_x_(static_cast<float>(tables.camera.center_x(tile.x + lane_x(first_)))),
+          center_y_(static_cast<float>(tables.camera.center_y(tile.y + lane_y(first_)))),
+          first_direction_(tables.camera.direction(static_cast<double>(center_x_),
+                                                   static_cast<double>(center_y_))) {}
+
+    HWY_NOINLINE void fill(std::uint32_t lanes) {
+        const Ints slots = Ints::load(reinterpret_cast<const std::int32_t*>(tile_.slot) + first_);
+        while (lanes != 0) {
+            const Slot slot = tile_.slot[first_ + std::countr_zero(lanes)];
+            const std::uint32_t same =
+                (slots == Ints(static_cast<std::int32_t>(slot))).bits() & lanes;
+            lanes &= ~same;
+            lanes_ = RayMask::from_bits(same);
+            bits_ = same;
+            if (slot < scene_.triangle_end())
+                fill_triangle(slot);
+            else
+                fill_round(slot, tables_.spheres[slot - scene_.triangle_end()]);
+        }
+        if (smooth_bits_ != 0) finish_smooth();
+    }
+
+  private:
+    static constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+    static constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    static constexpr float kSmallEnough = 1.0F / 16;  // 1 / (1 - x) <= 1 + 1.07 x
+
+    static double norm1(const Vector3& v) {
+        return std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z);
+    }
+    HWY_INLINE Doubles affine_dot(const Vector3& v) const {
+        return affine(dot(v, first_direction_), dot(v, tables_.camera.right),
+                      dot(v, tables_.camera.down));
+    }
+    // The lanes that are not `known` get NaN, and the referee.
+    HWY_INLINE void store_normal(const Floats (&n)[3], const RayMask& known, const Floats& error) {
+        for (int i = 0; i < 3; ++i)
+            select(known, n[i], Floats(kNan)).store(tile_.normal[i] + first_, lanes_);
+        error.store(scratch_.normal_error + first_, lanes_);
+        give_up(without(lanes_, known));
+        scratch_.curved[block_] = static_cast<std::uint16_t>(scratch_.curved[block_] | bits_);
+    }
+    HWY_INLINE void give_up(const RayMask& lanes) {
+        Floats(kInfinity).store(scratch_.diffuse_error + first_, lanes);
+    }
+    HWY_INLINE void store_point(const Floats (&p)[3], const RayMask& known, float error) {
+        const RayMask stored = lanes_ & known;
+        for (int i = 0; i < 3; ++i) p[i].store(tile_.point[i] + first_, stored);
+        Floats(error).store(tile_.point_error + first_, stored);
+    }
+
+    // m = f x d / r with f from the centre to the camera; the unit normal is (d x m -+ s d) / d.d
+    // with s^2 = d.d - m.m. (Haines et al. 2019, "Precision improvements for ray/sphere
+    // intersection".) s^2 is formed in double: below q d.d it is noise, and where it is 2^28 times
+    // that its float is good to the last digit. In float |m| <= |d|, so d x m has the roundings of
+    // d and m and 3 more; s has its own, half of its square's and the root's 3.2, with d and the
+    // product 5.2; 1 / d.d, its product and the sum 3: all that is kSphereNormalError in units.
+    HWY_INLINE void fill_sphere(const CameraSphere& sphere) {
+        constexpr double kCrossError = 0x1p-49;  // 8 roundings of f x d
+        constexpr double kDigits = 0x1p28;
+        constexpr double kSideError = 0x1p-48;
+        constexpr float kSphereNormalError = 14 * kFloatRoundoff;
+        const Vector3 from{sphere.from[0], sphere.from[1], sphere.from[2]};
+        const Vector3 f = from * (1 / sphere.exact_radius);
+        const double power = dot(f, f);
+        const bool inside = power < 1;
+        const bool sure = std::fabs(power - 1) > kSideError * (power + 1);
+        const double q = kCrossError * (1 + norm1(f));
+        set_up_rays();
+        const Vector3 first = cross(f, first_direction_);
+        const Vector3 right = cross(f, tables_.camera.right);
+        const Vector3 down = cross(f, tables_.camera.down);
+        Doubles rest = rays_.square;
+        Floats m[3];
+        for (int i = 0; i < 3; ++i) {
+            const Doubles value = affine(first[i], right[i], down[i]);
+            rest = neg_mul_add(value, value, rest);
+            m[i] = floats_from(value);
+        }
+        const Floats square = floats_from(rest);
+        const auto longest = static_cast<double>(tables_.rays.longest);
+        const auto least = static_cast<float>(kDigits * q * longest * longest);
+        const RayMask known = square > Floats(sure ? least : kInfinity);
+        Floats s = square * inverse_sqrt(square);
+        if (inside) s = -s;
+        const Point3 center = tables_.camera.origin - from;
+        const float radius = sphere.radius;
+        const float turn = inside && !sphere.solid ? -1 : 1;
+        Floats normal[3];
+        Floats point[3];
+        for (int i = 0; i < 3; ++i) {
+            const int next = (i + 1) % 3;
+            const int last = (i + 2) % 3;
+            const Floats across = neg_mul_add(rays_.d[last], m[next], rays_.d[next] * m[last]);
+            const Floats n = neg_mul_add(s, rays_.d[i], across) * rays_.inverse_square;
+            point[i] = mul_add(n, Floats(radius), Floats(static_cast<float>(center[i])));
+            normal[i] = n * Floats(turn);
+        }
+        store_normal(normal, known, Floats(kSphereNormalError));
+        // P: of centre and sum, and the radius's times the normal's and two more.
+        const float error =
+            (kSphereNormalError + 3 * kFloatRoundoff) * radius + tables_.bounds.curved_point_error;
+        store_point(point, known, error);
+    }
+
+    // The block's rays once for all its spheres.
+    HWY_INLINE void set_up_rays() {
+        if (rays_.ready) return;
+        rays_.ready = true;
+        rays_.square = Doubles(0.0);
+        const Vector3& first = first_direction_;
+        for (int i = 0; i < 3; ++i) {
+            const Doubles d = affine(first[i], tables_.camera.right[i], tables_.camera.down[i]);
+            rays_.square = mul_add(d, d, rays_.square);
+            rays_.d[i] = floats_from(d);
+        }
+        rays_.inverse_square = reciprocal(floats_from(rays_.square));
+    }
+
+    // The primary stage has its normal from the referee.
+    HWY_INLINE void fill_ellipsoid(bool solid) {
+        constexpr float kRootOf3 = 1.7320509F;  // rounded up
+        Floats normal[3];
+        Floats along(0.0F);
+        for (int i = 0; i < 3; ++i) {
+            normal[i] = Floats::load(tile_.round_normal[i] + first_);
+            along = mul_add(normal[i], directions_.at(i), along);
+        }
+        const Floats error = Floats::load(tile_.round_error + first_) * Floats(kRootOf3);
+        RayMask known = lanes_;
+        if (!solid) {
+            const float longest = tables_.rays.longest;
+            known =
+                abs(along) > mul_add(error, Floats(longest), Floats(8 * kFloatRoundoff * longest));
+            for (Floats& n : normal) n = select(along > Floats(0.0F), -n, n);
+        }
+        store_normal(normal, known, error);
+    }
+
+    HWY_INLINE void fill_triangle(Slot slot) {
+        const SurfaceWord word = tables_.triangle_words[slot];
+        const PrimitiveSource& source = scene_.source(slot);
+        if ((word & kColoredFlag) != 0)
+            fill_color(std::get<TriangleMesh>(scene_.scene().objects[source.object].shape),
+                       source.triangle);
+        if ((word & kSmoothFlag) != 0)
+            add_smooth(tables_.smooth[slot - tables_.smooth_offsets[source.object]]);
+    }
+
+    HWY_INLINE void fill_round(Slot slot, const CameraSphere& sphere) {
+        if (!tables_.uniform) {
+            const SurfaceWord word = tables_.material_words[sphere.material];
+            Ints(static_cast<std::int32_t>(word))
+                .store(reinterpret_cast<std::int32_t*>(scratch_.word) + first_,
+                       mask_for<std::int32_t>(lanes_));
+        }
+        if (slot < scene_.sphere_end())
+            fill_sphere(sphere);
+        else
+            fill_ellipsoid(sphere.solid);
+    }
+
+    // The normal's direction in these lanes; its length waits for those of other triangles.
+    HWY_INLINE void add_smooth(const SmoothTriangle& t) {
+        const Floats x = Floats::load(kSteps.right) + Floats(center_x_ - t.x);
+        const Floats y = Floats::load(kSteps.down) + Floats(center_y_ - t.y);
+        for (int i = 0; i < 3; ++i) {
+            const Floats n =
+                mul_add(x, Floats(t.right[i]), mul_add(y, Floats(t.down[i]), Floats(t.at[i])));
+            smooth_[i] = select(lanes_, n, smooth_[i]);
+        }
+        constexpr float kReach = kBlockSide - 1;
+        const float error = t.error + t.error_right * (std::fabs(center_x_ - t.x) + kReach) +
+                            t.error_down * (std::fabs(center_y_ - t.y) + kReach);
+        smooth_error_ = select(lanes_, Floats(error), smooth_error_);
+        smooth_bits_ |= bits_;
+    }
+
+    // The error of the direction; of the length 3 u of the square by half, the root's, a product.
+    HWY_INLINE void finish_smooth() {
+        lanes_ = RayMask::from_bits(smooth_bits_);
+        bits_ = smooth_bits_;
+        Floats square(0.0F);
+        for (const Floats& n : smooth_) square = mul_add(n, n, square);
+        const Floats inverse = inverse_sqrt(square);
+        const Floats relative = smooth_error_ * inverse;
+        const RayMask known = relative < Floats(kSmallEnough);
+        Floats normal[3];
+        for (int i = 0; i < 3; ++i) normal[i] = smooth_[i] * inverse;
+        store_normal(normal, known,
+                     mul_add(relative, Floats(1.07F), Floats(4.8F * kFloatRoundoff)));
+    }
+
+    // Weights V / S and W / S as surface_point() has them. Below 2^-49 of its magnitudes a triple
+    // product is noise; where S is 2^29 times that, the weights are within 2^-29.
+    void fill_color(const TriangleMesh& mesh, std::uint32_t index) {
+        constexpr double kTripleError = 0x1p-49;
+        constexpr double kWeightDigits = 0x1p29;
+        constexpr double kFullByte = 255;
+        const Triangle t = mesh.triangle(index);
+        const double scale = scene_.frame().scale;
+        const Vector3 from = (t.a - scene_.scene().camera.position) * scale;
+        const Vector3 e1 = (t.b - t.a) * scale;
+        const Vector3 e2 = (t.c - t.a) * scale;
+        const Doubles s = affine_dot(cross(e2, e1));
+        const Doubles inverse = precise_reciprocal(s);
+        const Doubles x = affine_dot(cross(from, e2)) * inverse;
+        const Doubles y = affine_dot(cross(e1, from)) * inverse;
+        const double edges = norm1(e1) + norm1(e2);
+        const double noise = kTripleError * (norm1(from) + edges) * edges *
+                             static_cast<double>(tables_.rays.longest);
+        const RayMask known =
+            abs(floats_from(s)) >
+            Floats(static_cast<float>(kWeightDigits * noise) + std::numeric_limits<float>::min());
+        const IndexTriple& corner =
+            (mesh.color_triangles.empty() ? mesh.triangles : mesh.color_triangles)[index];
+        const Color& c0 = mesh.colors[corner[0]];
+        const Color c1 = mesh.colors[corner[1]] - c0;
+        const Color c2 = mesh.colors[corner[2]] - c0;
+        for (int c = 0; c < 3; ++c) {
+            const Doubles color =
+                mul_add(x, Doubles(c1[c] * kFullByte),
+                        mul_add(y, Doubles(c2[c] * kFullByte), Doubles(c0[c] * kFullByte)));
+            floats_from(color).store(scratch_.color[c] + first_, lanes_);
+        }
+        give_up(without(lanes_, known));
+        scratch_.colored[block_] = static_cast<std::uint16_t>(scratch_.colored[block_] | bits_);
+    }
+
+    const ShadingTables& tables_;
+    const FastScene& scene_;
+    Tile& tile_;
+    ShadingScratch& scratch_;
+    int first_;
+    const BlockDirections& directions_;
+    int block_;
+    RayMask lanes_;
+    std::uint32_t bits_ = 0;
+
+    // X and Y of the block's first lane.
+    float center_x_;
+    float center_y_;
+    Vector3 first_direction_;
+    Floats smooth_[3];
+    Floats smooth_error_;
+    std::uint32_t smooth_bits_ = 0;
+
+    struct Rays {
+        Floats d[3];
+        Doubles square;  // d.d
+        Floats inverse_square;
+        bool ready = false;
+    } rays_;
+};
+
+}  // namespace nuvo::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // NUVO_RENDER_FAST_CURVED_LANES_H_

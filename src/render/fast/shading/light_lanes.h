@@ -1,0 +1,195 @@
+// No #pragma once: compiled once for each instruction set (see hwy/foreach_target.h).
+#if defined(NUVO_RENDER_FAST_LIGHT_LANES_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef NUVO_RENDER_FAST_LIGHT_LANES_H_
+#undef NUVO_RENDER_FAST_LIGHT_LANES_H_
+#else
+#define NUVO_RENDER_FAST_LIGHT_LANES_H_
+#endif
+
+#include <limits>
+
+#include "fast/shading/shading.h"
+#include "fast/simd/lanes.h"
+#include "fast/simd/vector_math.h"
+
+// Geometry of one light at 16 points: way, attenuation, spot and specular lobe [eq. 38-44]. In the
+// comments u is 2^-24, and numbers of u count roundings to first order; each sum is rounded up by
+// enough for the second.
+
+HWY_BEFORE_NAMESPACE();
+namespace nuvo::HWY_NAMESPACE {
+
+// 1 / (1 - x) <= 1 + kSecondOrder x for x < kSmall.
+inline constexpr float kSmall = 1.0F / 16;
+inline constexpr float kSecondOrder = 1.07F;
+
+/// The relative error that an error of `x` of a vector of length 1 gives its direction and, the
+/// inverse of, its length; infinite where that is not small.
+HWY_INLINE Floats small_error(const Floats& x) {
+    return select(x < Floats(kSmall), x * Floats(kSecondOrder),
+                  Floats(std::numeric_limits<float>::infinity()));
+}
+
+/// To a directional light: the same from everywhere.
+struct NoWay {
+    HWY_INLINE NoWay(const ShadingLight&, const Tile&, int) {}
+    HWY_INLINE Floats toward(const ShadingLight& light, int axis) const {
+        return Floats(light.toward[axis]);
+    }
+};
+
+/// From points to a point or spot light.
+struct WayToLight {
+    HWY_INLINE WayToLight(const ShadingLight& light, const Tile& tile, int first) {
+        square = Floats(0.0F);
+        for (int axis = 0; axis < 3; ++axis) {
+            to[axis] = Floats(light.location[axis]) - Floats::load(tile.point[axis] + first);
+            square = mul_add(to[axis], to[axis], square);
+        }
+        inverse = inverse_sqrt(square);
+        const Floats error = Floats::load(tile.point_error + first) + Floats(light.location_error);
+        // The difference 1 u; 3 u of the square by half; the root 2.2 u.
+        relative = small_error(error * inverse) + Floats(4.8F * kFloatRoundoff);
+    }
+
+    /// The unit vector to the light.
+    HWY_INLINE Floats toward(const ShadingLight&, int axis) const { return to[axis] * inverse; }
+
+    Floats to[3];
+    Floats square;
+    Floats inverse;   ///< 1 / length
+    Floats relative;  ///< bounds the relative error of `inverse`, and that of `to` as a direction
+};
+
+/// What weakens a light, in 0..1.
+struct Factor {
+    Floats value;
+    Floats error;
+    RayMask perhaps;  ///< false: surely beyond the radius or outside of the cone
+};
+
+/// [eq. 40, 41] The factor falls with the angle, so its ends are those of the angle's bounds.
+HWY_INLINE void weaken_by_cone(const ShadingLight& light, const WayToLight& way, Factor& factor) {
+    Floats cosine(0.0F);
+    for (int axis = 0; axis < 3; ++axis)
+        cosine = mul_add(way.to[axis], Floats(-light.axis[axis]), cosine);
+    cosine = cosine * way.inverse;
+    // 3 roundings of the product with a rounded axis, one more with the inverse.
+    const Floats error = way.relative + Floats(5.2F * kFloatRoundoff);
+    const auto angle = [](const Floats& c)
+                           HWY_ATTR { return arc_cosine(min(max(c, Floats(0.0F)), Floats(1.0F))); };
+    // Roundings of angles up to pi / 2: the limits' and the differences'.
+    const Floats margin(kArcError + 8 * kFloatRoundoff);
+    const Floats least = angle(cosine + error) - margin;
+    const Floats most = angle(cosine - error) + margin;
+    const Floats one(1.0F);
+    Floats high;
+    Floats low;
+    if (light.inverse_width < std::numeric_limits<float>::infinity()) {
+        const auto part = [&](const Floats& a) HWY_ATTR {
+            const Floats inside = (Floats(light.cut_off) - a) * Floats(light.inverse_width);
+            return min(max(inside, Floats(0.0F)), one);
+        };
+        high = part(least);
+        low = part(most);
+    } else {
+        high = select(least < Floats(light.cut_off), one, Floats(0.0F));
+        low = select(most < Floats(light.cut_off), one, Floats(0.0F));
+    }
+    const Floats middle = (high + low) * Floats(0.5F);
+    const Floats half = (high - low) * Floats(0.5F) + Floats(4 * kFloatRoundoff);
+    factor.error = factor.error + half;
+    factor.value = factor.value * middle;
+    // NaN ends where nothing is known.
+    const RayMask known = way.relative < one;
+    factor.error = select(known, factor.error, Floats(std::numeric_limits<float>::infinity()));
+    factor.perhaps = factor.perhaps & (~known | (high > Floats(0.0F)));
+}
+
+/// Radius, attenuation and cone.
+HWY_INLINE Factor strength(const ShadingLight& light, const WayToLight& way) {
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    Factor factor{Floats(1.0F), Floats(0.0F), RayMask::from_bits(0xffff)};
+    const Floats distance = way.square * way.inverse;
+    const Floats relative = way.relative + Floats(2 * kFloatRoundoff);
+    if (light.ranged) {
+        const Floats slack = distance * (relative + Floats(2 * kFloatRoundoff));
+        factor.perhaps = ~(distance - slack > Floats(light.radius));
+        factor.error =
+            select(distance + slack < Floats(light.radius), Floats(0.0F), Floats(kInfinity));
+    }
+    if (light.attenuated) {  // [eq. 38, 39]
+        const Floats loss =
+            mul_add(mul_add(Floats(light.attenuation[2]), distance, Floats(light.attenuation[1])),
+                    distance, Floats(light.attenuation[0]));
+        factor.value = reciprocal(max(loss, Floats(1.0F)));
+        // At most quadratic in the distance; 5 roundings of the polynomial, 2 of the inverse.
+        const Floats error = mul_add(relative, Floats(2.0F), Floats(8 * kFloatRoundoff));
+        factor.error = mul_add(factor.value * Floats(1.2F), error, factor.error);
+    }
+    if (light.spot) weaken_by_cone(light, way, factor);
+    return factor;
+}
+
+/// max(0, n.h)^exponent. [eq. 44]
+struct Lobe {
+    Floats value;
+    Floats error;
+    RayMask perhaps;  ///< false: surely zero
+};
+
+/// n.h of unit vectors is 1 - z, z = |n - h|^2 / 2: near the highlight's middle, where the power is
+/// steep, the error of z is that of n - h times |n - h|, many times less than that of a product.
+/// `directions_error` is the sum of those of to_light and to_viewer.
+HWY_INLINE Lobe specular_lobe(const Floats (&normal)[3], const Floats (&to_light)[3],
+                              const Floats (&to_viewer)[3], const Floats& normal_error,
+                              const Floats& directions_error, const Floats& exponent) {
+    constexpr float kBelowOne = 1 - kFloatRoundoff;
+    constexpr float kTiny = 0x1p-100F;  // keeps the root of 0 finite
+    const Floats one(1.0F);
+    Floats sum[3];
+    Floats square(0.0F);
+    for (int axis = 0; axis < 3; ++axis) {
+        sum[axis] = to_light[axis] + to_viewer[axis];
+        square = mul_add(sum[axis], sum[axis], square);
+    }
+    const Floats inverse = inverse_sqrt(square);
+    // The sum's rounding (of a length up to 2); the square's 3 u by half, the root, the product.
+    const Floats halfway_error =
+        small_error((directions_error + Floats(2 * kFloatRoundoff)) * inverse) +
+        Floats(4.8F * kFloatRoundoff);
+    Floats between(0.0F);
+    for (int axis = 0; axis < 3; ++axis) {
+        const Floats difference = neg_mul_add(sum[axis], inverse, normal[axis]);
+        between = mul_add(difference, difference, between);
+    }
+    const Floats z = between * Floats(0.5F);
+    const Floats length = between * above_inverse_sqrt(between + Floats(kTiny));
+    const Floats error = normal_error + halfway_error;
+    const Floats z_error =
+        mul_add(length, error, mul_add(error, error, z * Floats(6 * kFloatRoundoff))) *
+        Floats(1.01F);
+
+    const Floats cosine = one - z;
+    const Floats power = power_of_complement(min(z, Floats(kBelowOne)), exponent);
+    const Floats steep = exponent * z_error;
+    const RayMask regular = (steep < cosine * Floats(kSmall)) & (z_error < cosine * Floats(kSmall));
+    // Where the cosine is not far above its error: max(0, x)^e on x <= 1 has no slope above e >= 1.
+    const Floats lipschitz =
+        select(exponent >= one, steep, Floats(std::numeric_limits<float>::infinity()));
+    Lobe lobe;
+    lobe.value = power;
+    lobe.error = select(regular, power * (steep / cosine) * Floats(kSecondOrder), lipschitz) +
+                 Floats(kPowerError + kFloatRoundoff);
+    lobe.perhaps = ~(z - z_error > one);
+    const RayMask even = exponent == Floats(0.0F);  // x^0 is 1
+    lobe.value = select(even, one, lobe.value);
+    lobe.error = select(even, Floats(0.0F), lobe.error);
+    lobe.perhaps = lobe.perhaps | even;
+    return lobe;
+}
+
+}  // namespace nuvo::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // NUVO_RENDER_FAST_LIGHT_LANES_H_

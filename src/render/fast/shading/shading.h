@@ -1,0 +1,95 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "fast/shading/shading_tables.h"
+#include "fast/tile/referee.h"
+#include "fast/tile/tile.h"
+#include "nuvo/image/image.h"
+
+// Shading 16 pixels at a time in float, with a running bound on the error of each pixel. Where the
+// bound does not settle all three bytes, the referee computes the pixel as the serial tracer does.
+
+namespace nuvo {
+
+/// What the stages of one tile's shading tell each other.
+struct alignas(64) ShadingScratch {
+    SurfaceWord word[kTileLanes];    ///< unless all are the same
+    TileMask lit_material;           ///< lanes that lights may light
+    TileMask curved;                 ///< whose normal is in Tile::normal: not a flat triangle's
+    TileMask colored;                ///< whose color is interpolated
+    float normal_error[kTileLanes];  ///< of curved lanes
+    float view[3][kTileLanes];       ///< unit, to the viewer; if something is specular
+    float color[3][kTileLanes];      ///< of colored lanes, times 255
+
+    // The light that is being sampled: its diffuse and ambient part and its specular part, without
+    // colors (but see ShadingLight::gain).
+    float shine[kTileLanes];
+    float shine_error[kTileLanes];
+    float lobe[kTileLanes];
+    float lobe_error[kTileLanes];
+
+    // Sums over the lights; errors of the largest channel.
+    float diffuse[3][kTileLanes];
+    float diffuse_error[kTileLanes];
+    float specular[3][kTileLanes];
+    float specular_error[kTileLanes];
+};
+
+/// The functions of one instruction set (shading_surface.cpp, shading_light.cpp,
+/// shading_finish.cpp).
+struct ShadingKernels {
+    void (*surface)(const ShadingTables&, Tile&, ShadingScratch&);
+    void (*sample)(const ShadingTables&, const Tile&, std::size_t light, ShadingScratch&,
+                   TileMask& wanted);
+    void (*add)(const ShadingTables&, std::size_t light, const TileMask& lit, ShadingScratch&);
+    void (*finish)(const ShadingTables&, const Tile&, const ShadingScratch&, Image&,
+                   TileMask& uncertain);
+};
+void pick_surface_kernel(InstructionSet isa, ShadingKernels& kernels);
+void pick_light_kernels(InstructionSet isa, ShadingKernels& kernels);
+void pick_finish_kernel(InstructionSet isa, ShadingKernels& kernels);
+
+/// Turns the hits of a tile into bytes of the picture, light by light:
+///   surface(tile);
+///   for each light: sample(tile, light, wanted), find which wanted lanes are unblocked, add(...);
+///   finish(tile, referee, image).
+/// For one thread; copies share the tables.
+class ShadingStage {
+  public:
+    /// `redo_exactly` false: bytes that are not certain stay as they are.
+    ShadingStage(const FastScene& scene, const CameraRays& camera, const CameraTables& tables,
+                 InstructionSet isa, bool redo_exactly = true);
+    /// With tables that are filled before anything is asked.
+    explicit ShadingStage(std::shared_ptr<const ShadingTables> tables, bool redo_exactly = true);
+
+    const ShadingTables& tables() const { return *tables_; }
+
+    /// Points and normals: Tile::point and point_error (which bounds the distance, too) of every
+    /// lane that hits something; Tile::normal of round primitives and interpolated normals, and
+    /// where something is specular of all; NaN where floats cannot tell.
+    void surface(Tile& tile);
+    /// Which lanes the light lights if nothing is in its way. What it leaves out is surely lit with
+    /// exactly zero, or not at all.
+    void sample(const Tile& tile, std::size_t light, TileMask& wanted);
+    /// Adds the light to the lanes of `lit`, a part of the `wanted` of the last sample(). Lights
+    /// that are not asked for add nothing.
+    void add(std::size_t light, const TileMask& lit);
+    /// Returns the number of pixels that the referee decided.
+    int finish(const Tile& tile, const Referee& referee, Image& image);
+
+  private:
+    using LitLanes = std::array<std::uint16_t, kTileBlocks>;
+
+    int redo(const Tile& tile, const TileMask& uncertain, const Referee& referee, Image& image);
+
+    std::shared_ptr<const ShadingTables> tables_;
+    ShadingKernels kernels_;
+    bool redo_exactly_;
+    std::vector<LitLanes> lit_;  // by light
+    ShadingScratch scratch_;
+};
+
+}  // namespace nuvo

@@ -1,0 +1,73 @@
+#include "fast/shading/shading_rays.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "fast/shading/shading_tables.h"
+
+namespace nuvo {
+namespace {
+
+// Outweighs second-order terms and the roundings of a bound's own computation.
+constexpr double kSlack = 1.02;
+
+std::size_t whole_tiles(int pixels) {
+    return static_cast<std::size_t>((pixels + kTileSide - 1) / kTileSide * kTileSide);
+}
+
+double largest_step(const std::vector<float>& parts) {
+    double most = 0;
+    for (const float part : parts) most = std::max(most, std::fabs(static_cast<double>(part)));
+    return most;
+}
+
+}  // namespace
+
+ShadingRays::ShadingRays(const CameraRays& camera) {
+    const Resolution size = camera.resolution;
+    const std::size_t width = whole_tiles(size.width);
+    const std::size_t height = whole_tiles(size.height);
+    for (int axis = 0; axis < 3; ++axis) {
+        column[axis].resize(width);
+        row[axis].resize(height * kBlockSide);
+    }
+    column_square.resize(width);
+    row_square.resize(height * kBlockSide);
+    for (std::size_t x = 0; x < width; ++x) {
+        const Vector3 part = camera.right * camera.center_x(static_cast<int>(x));
+        for (int axis = 0; axis < 3; ++axis) column[axis][x] = static_cast<float>(part[axis]);
+        column_square[x] = static_cast<float>(dot(part, part));
+    }
+    for (std::size_t i = 0; i < height * kBlockSide; ++i) {
+        const Vector3 part =
+            camera.forward + camera.down * camera.center_y(static_cast<int>(i / kBlockSide));
+        for (int axis = 0; axis < 3; ++axis) row[axis][i] = static_cast<float>(part[axis]);
+        row_square[i] = static_cast<float>(dot(part, part));
+    }
+
+    // The longest column's part, row's part and sum; |forward| is 1 up to its roundings in double.
+    const double across = nuvo::length(camera.right) * 0.5 * size.width;
+    const double along = 1 + nuvo::length(camera.down) * 0.5 * size.height;
+    // The sum of perpendicular parts a, b is at least (|a| + |b|) / sqrt(2).
+    const double unit = kFloatRoundoff;
+    longest = rounded_up(kSlack * std::sqrt(across * across + along * along));
+    error = rounded_up(kSlack * unit * (across + along + static_cast<double>(longest)));
+    relative = rounded_up(kSlack * unit * (std::sqrt(2.0) + 1));
+    // d_y: roundings of its parts and their sum, |d| >= 1; then of y = d_y / |d| the roundings of
+    // the parts of |d|^2 and of their sum by half (1), the root's (2.2) and the product's. And what
+    // the axes lack of being perpendicular.
+    const double parts = largest_step(column[1]) + largest_step(row[1]);
+    const double y = std::min(1.0, parts);
+    const double skew = std::fabs(dot(camera.right, camera.forward)) * 0.5 * size.width +
+                        std::fabs(dot(camera.right, camera.down)) * 0.25 * size.width * size.height;
+    sine_error = rounded_up(kSlack * (unit * (parts + y + 4.2 * y) + skew));
+}
+
+std::size_t ShadingRays::memory_bytes() const {
+    std::size_t floats = column_square.size() + row_square.size();
+    for (int axis = 0; axis < 3; ++axis) floats += column[axis].size() + row[axis].size();
+    return floats * sizeof(float);
+}
+
+}  // namespace nuvo

@@ -1,0 +1,139 @@
+#include "fast/shading/shading.h"
+
+#include <bit>
+#include <limits>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "fast/shading/shading_surface.cpp"
+#include <hwy/foreach_target.h>
+
+#include "fast/shading/curved_lanes.h"
+#include "fast/simd/lanes.h"
+#include "fast/simd/vector_math.h"
+
+// Points of all lanes from 1 / t; words of their materials; and for spheres, interpolated normals
+// and colors the slower way of curved_lanes.h.
+
+HWY_BEFORE_NAMESPACE();
+namespace nuvo::HWY_NAMESPACE {
+
+class SurfaceFiller {
+  public:
+    SurfaceFiller(const ShadingTables& tables, Tile& tile, ShadingScratch& scratch)
+        : tables_(tables),
+          tile_(tile),
+          scratch_(scratch),
+          triangle_end_(static_cast<std::int32_t>(tables.scene.triangle_end())) {}
+
+    void run() {
+        for (int b = 0; b < kTileBlocks; ++b) {
+            scratch_.lit_material[b] = 0;
+            scratch_.curved[b] = 0;
+            scratch_.colored[b] = 0;
+            if (tile_.hit[b] != 0) fill(b);
+        }
+    }
+
+  private:
+    static constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+    HWY_INLINE void fill(int b) {
+        const int first = b * kBlockLanes;
+        const std::uint32_t hit = tile_.hit[b];
+        clear_sums(first);
+        const BlockDirections directions(tables_, tile_, b);
+        fill_points(first, directions);
+        const Ints slot = Ints::load(reinterpret_cast<const std::int32_t*>(tile_.slot) + first);
+        const auto triangle = (slot > Ints(-1)) & (slot < Ints(triangle_end_));
+        const std::uint32_t triangles = triangle_end_ == 0 ? 0 : triangle.bits();
+        std::uint32_t special = hit & ~triangles;  // lanes of curved_lanes.h
+        std::uint32_t unlit = (tables_.common_word & kUnlitFlag) != 0 ? 0xffff : 0;
+        if (!tables_.uniform) {
+            Ints word(0);
+            if (triangles != 0)
+                word = Ints::gather(
+                    reinterpret_cast<const std::int32_t*>(tables_.triangle_words.data()),
+                    select(triangle, slot, Ints(0)));
+            word.store(reinterpret_cast<std::int32_t*>(scratch_.word) + first);
+            special |= flagged(word, kSmoothFlag | kColoredFlag) & triangles;
+            unlit = flagged(word, kUnlitFlag) & triangles;
+        }
+        if (!tables_.normals.empty() && triangles != 0)
+            gather_normals(first, select(triangle, slot, Ints(0)));
+        if (special != 0) {
+            CurvedLanes(tables_, tile_, scratch_, directions, b).fill(special);
+            if (!tables_.uniform)
+                unlit = flagged(
+                    Ints::load(reinterpret_cast<const std::int32_t*>(scratch_.word) + first),
+                    kUnlitFlag);
+        }
+        if ((tables_.any_flags & kSpecularFlag) != 0) fill_view(first, directions);
+        scratch_.lit_material[b] = static_cast<std::uint16_t>(hit & ~unlit);
+    }
+
+    static HWY_INLINE std::uint32_t flagged(const Ints& word, SurfaceWord flags) {
+        return ((word & Ints(static_cast<std::int32_t>(flags))) != Ints(0)).bits();
+    }
+
+    HWY_INLINE void clear_sums(int first) {
+        const Floats zero(0.0F);
+        for (int c = 0; c < tables_.channels; ++c) zero.store(scratch_.diffuse[c] + first);
+        Floats(tables_.sound ? 0.0F : kInfinity).store(scratch_.diffuse_error + first);
+        if ((tables_.any_flags & kSpecularFlag) == 0) return;
+        for (int c = 0; c < tables_.channels; ++c) zero.store(scratch_.specular[c] + first);
+        zero.store(scratch_.specular_error + first);
+    }
+
+    // With w the relative width of the bounds on 1 / t, t is off by w / 2 + w^2 / 2 at most: 1 / (1
+    // - w / 2) <= 1 + w / 2 + w^2 / 2 for w <= 1.
+    HWY_INLINE void fill_points(int first, const BlockDirections& directions) {
+        const ShadingBounds& bounds = tables_.bounds;
+        const Floats low = Floats::load(tile_.near_low + first);
+        const Floats high = Floats::load(tile_.near_high + first);
+        const Floats t = reciprocal((low + high) * Floats(0.5F));
+        for (int axis = 0; axis < 3; ++axis)
+            mul_add(t, directions.at(axis), Floats(static_cast<float>(tables_.camera.origin[axis])))
+                .store(tile_.point[axis] + first);
+        const Floats w = (high - low) * t;
+        const Floats half = mul_add(w, w, w) * Floats(0.51F * tables_.rays.longest);
+        const Floats error =
+            mul_add(t, half + Floats(bounds.point_by_t), Floats(bounds.point_constant));
+        select(w < Floats(1.0F), error, Floats(kInfinity)).store(tile_.point_error + first);
+    }
+
+    HWY_INLINE void gather_normals(int first, const Ints& slot) {
+        const Ints at = shift_left<2>(slot);
+        for (int axis = 0; axis < 3; ++axis)
+            Floats::gather(tables_.normals.data() + axis, at).store(tile_.normal[axis] + first);
+    }
+
+    HWY_INLINE void fill_view(int first, const BlockDirections& directions) {
+        const Floats inverse = -inverse_sqrt(directions.square());
+        for (int axis = 0; axis < 3; ++axis)
+            (directions.at(axis) * inverse).store(scratch_.view[axis] + first);
+    }
+
+    const ShadingTables& tables_;
+    Tile& tile_;
+    ShadingScratch& scratch_;
+    std::int32_t triangle_end_;
+};
+
+void fill_surface(const ShadingTables& tables, Tile& tile, ShadingScratch& scratch) {
+    SurfaceFiller(tables, tile, scratch).run();
+}
+
+}  // namespace nuvo::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "fast/simd/dispatch.h"
+
+namespace nuvo {
+
+void pick_surface_kernel(InstructionSet isa, ShadingKernels& kernels) {
+    kernels.surface = NUVO_FOR_ISA(isa, fill_surface);
+}
+
+}  // namespace nuvo
+#endif

@@ -1,0 +1,356 @@
+#include "fast/shading/shading_tables.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "fast/shading/shading_facing.h"
+#include "nuvo/geometry/predicates.h"
+#include "nuvo/render/shading.h"
+
+namespace nuvo {
+namespace {
+
+constexpr double kFullByte = 255;
+// Outweighs second-order terms and the roundings of a bound's own computation.
+constexpr double kSlack = 1.02;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// More lights use normals: their tables would outgrow the caches.
+constexpr std::size_t kLightsWithFacing = 8;
+
+float rounded(double value) { return static_cast<float>(value); }
+double largest(const Color& c) { return std::max(c.x, std::max(c.y, c.z)); }
+bool is_gray(const Color& c) { return c.x == c.y && c.y == c.z; }
+
+// Colors are bounded by sums of terms that are not negative, and not too large for float.
+bool is_sound(double value) { return value >= 0 && value < 0x1p60; }
+bool is_sound(const Color& c) { return is_sound(c.x) && is_sound(c.y) && is_sound(c.z); }
+
+void put(const Color& color, double factor, float (&out)[3]) {
+    for (int c = 0; c < 3; ++c) out[c] = rounded(color[c] * factor);
+}
+
+// A color whose bytes are those of the exact one if nothing is added: where it is halfway between
+// two bytes it is moved up a little, as ties go; floats up to 255 are multiples of half of that.
+constexpr float kOffTie = 0x1p-15F;
+bool put_surely(const Color& color, float* out) {
+    bool moved = false;
+    const Rgb8 bytes = quantized(color);
+    for (int c = 0; c < 3; ++c) {
+        const int byte = c == 0 ? bytes.r : c == 1 ? bytes.g : bytes.b;
+        out[c] = rounded(color[c] * kFullByte);
+        const float off = out[c] - static_cast<float>(byte);
+        if (out[c] > 255 || std::fabs(off) < 0.5F - kOffTie) continue;
+        out[c] = static_cast<float>(byte) + (off < 0 ? kOffTie - 0.5F : 0.5F - kOffTie);
+        moved = true;
+    }
+    return moved;
+}
+
+ShadingMaterial shading_material(const Material& m) {
+    ShadingMaterial out{};
+    out.emissive_most = rounded_up(largest(m.emissive_color) * kFullByte);
+    // The error counts at least 3 units of emissive_most.
+    if (put_surely(m.emissive_color, out.emissive))
+        out.emissive_most += kOffTie / (3 * kFloatRoundoff);
+    if (!m.lit) return out;
+    put(m.diffuse_color, kFullByte, out.diffuse);
+    put(m.specular_color, kFullByte, out.specular);
+    out.diffuse_most = rounded_up(largest(m.diffuse_color) * kFullByte);
+    out.specular_most = rounded_up(largest(m.specular_color) * kFullByte);
+    out.ambient = rounded(m.ambient_intensity);
+    out.exponent = rounded(128 * m.shininess);
+    return out;
+}
+
+void add_materials(ShadingTables& tables) {
+    using Key = std::array<double, 12>;
+    std::map<Key, SurfaceWord> known;
+    for (const Material& m : tables.scene.scene().materials) {
+        const bool specular = m.lit && m.specular_color != Color{};
+        tables.sound = tables.sound && is_sound(m.diffuse_color) && is_sound(m.emissive_color) &&
+                       is_sound(m.specular_color) && is_sound(m.ambient_intensity) &&
+                       is_sound(m.shininess);
+        const Color d = m.lit ? m.diffuse_color : Color{};
+        const Color s = specular ? m.specular_color : Color{};
+        const Color e = m.emissive_color;
+        const Key key{d.x,
+                      d.y,
+                      d.z,
+                      s.x,
+                      s.y,
+                      s.z,
+                      e.x,
+                      e.y,
+                      e.z,
+                      m.lit ? m.ambient_intensity : 0,
+                      specular ? m.shininess : 0,
+                      m.lit ? 1.0 : 0.0};
+        const auto next = static_cast<SurfaceWord>(tables.materials.size());
+        const auto [place, is_new] = known.try_emplace(key, next);
+        if (is_new) tables.materials.push_back(shading_material(m));
+        SurfaceWord word = place->second;
+        if (!m.lit) word |= kUnlitFlag;
+        if (specular) word |= kSpecularFlag;
+        tables.any_flags |= word & ~kMaterialMask;
+        tables.material_words.push_back(word);
+    }
+    tables.uniform = tables.materials.size() <= 1;
+    if (tables.uniform && !tables.material_words.empty())
+        tables.common_word = tables.material_words[0];
+}
+
+void place_smooth_triangles(ShadingTables& tables) {
+    const FastScene& scene = tables.scene;
+    tables.smooth_offsets.resize(scene.scene().objects.size());
+    std::uint32_t object = ~0U;
+    bool smooth = false;
+    std::uint32_t count = 0;
+    for (Slot slot = 0; slot < scene.triangle_end(); ++slot) {
+        if (scene.source(slot).object != object) {
+            object = scene.source(slot).object;
+            smooth = !std::get<TriangleMesh>(scene.scene().objects[object].shape).normals.empty();
+            tables.smooth_offsets[object] = slot - count;
+        }
+        if (smooth) ++count;
+    }
+    tables.smooth.resize(count);
+}
+
+// Flags that only meshes have.
+void add_mesh_flags(ShadingTables& tables) {
+    if (tables.scene.triangle_end() == 0) return;
+    double most = 0;
+    for (const Object& object : tables.scene.scene().objects) {
+        const auto* mesh = std::get_if<TriangleMesh>(&object.shape);
+        if (!mesh) continue;
+        if (!mesh->normals.empty()) tables.any_flags |= kSmoothFlag;
+        if (mesh->colors.empty()) continue;
+        tables.any_flags |= kColoredFlag;
+        for (const Color& c : mesh->colors) {
+            tables.sound = tables.sound && is_sound(c);
+            most = std::max(most, largest(c));
+        }
+    }
+    if ((tables.any_flags & (kSmoothFlag | kColoredFlag)) != 0) tables.uniform = false;
+    if ((tables.any_flags & kSmoothFlag) != 0) place_smooth_triangles(tables);
+    // Weights in double, then one rounding of each sum.
+    tables.bounds.color_error = rounded_up(2 * kFloatRoundoff * most * kFullByte);
+}
+
+// The farthest that a point of the scene is from `p`, in the local frame.
+double farthest(const FastScene& scene, const Point3& p) {
+    const Bounds3T<float>& box = scene.octree().bounds;
+    if (box.empty()) return 0;
+    Vector3 way;
+    for (int axis = 0; axis < 3; ++axis)
+        way[axis] = std::max(std::fabs(p[axis] - static_cast<double>(box.min[axis])),
+                             std::fabs(static_cast<double>(box.max[axis]) - p[axis]));
+    return length(way) * kSlack;
+}
+
+// What positions in the local frame may be off for being rounded in world space: those of
+// surface_point(), which are within surface_tolerance(), and of `p`.
+double world_rounding(const FastScene& scene, const Point3& p) {
+    const LocalFrame& frame = scene.frame();
+    const double world = max_norm(frame.center) * frame.scale;
+    return std::sqrt(3.0) * kSlack *
+           (surface_tolerance() * (world + 2) +
+            4 * kUnitRoundoff * (world + max_norm(p) * frame.scale));
+}
+
+void place_light(const ShadingTables& tables, const Light& exact, ShadingLight& light) {
+    const FastScene& scene = tables.scene;
+    const double scale = scene.frame().scale;
+    const Point3 location = scene.frame().local(exact.location);
+    for (int axis = 0; axis < 3; ++axis) light.location[axis] = rounded(location[axis]);
+    light.location_error = rounded_up(
+        kSlack * (kFloatRoundoff * length(location) + world_rounding(scene, exact.location)));
+    const Vector3& a = exact.attenuation;
+    light.attenuated = a.x > 1 || a.y != 0 || a.z != 0;
+    const double unit = exact.units_per_world / scale;
+    light.attenuation[0] = rounded(a.x);
+    light.attenuation[1] = rounded(a.y * unit);
+    light.attenuation[2] = rounded(a.z * unit * unit);
+    const double reach = farthest(scene, location);
+    light.ranged = !(exact.radius * scale > reach * kSlack);
+    light.radius = rounded(exact.radius * scale);
+    // Of n.(L - a): the normal's, and that P is not quite in the plane.
+    light.facing_error = rounded_up(
+        light.exact_gain *
+        (2 * kTriangleNormalError * reach + world_rounding(scene, exact.location)) * kSlack);
+}
+
+void aim_spot(const Light& exact, ShadingLight& light) {
+    if (exact.direction == Vector3{}) light.dead = true;
+    for (int axis = 0; axis < 3; ++axis) light.axis[axis] = rounded(exact.direction[axis]);
+    light.beam_width = rounded(exact.beam_width);
+    light.cut_off = rounded(exact.cut_off_angle);
+    light.inverse_width = exact.beam_width < exact.cut_off_angle
+                              ? rounded(1 / (exact.cut_off_angle - exact.beam_width))
+                              : std::numeric_limits<float>::infinity();
+}
+
+ShadingLight shading_light(const ShadingTables& tables, const Light& exact) {
+    ShadingLight light;
+    const bool gray = is_gray(exact.color);
+    const double factor = gray ? exact.color.x : 1;
+    light.exact_gain = exact.intensity * factor;
+    light.gain = rounded(light.exact_gain);
+    light.ambient = rounded(exact.ambient_intensity * factor);
+    if (!gray)
+        for (int c = 0; c < 3; ++c) light.tint[c] = rounded(exact.color[c]);
+    light.tint_most = gray ? 1 : rounded_up(largest(exact.color));
+    light.dead = exact.color == Color{} || (exact.intensity == 0 && exact.ambient_intensity == 0);
+    const std::size_t objects = tables.scene.scene().objects.size();
+    light.scoped = exact.scope.first > 0 || exact.scope.last < objects;
+    light.directional = exact.kind == Light::Kind::kDirectional;
+    light.spot = exact.kind == Light::Kind::kSpot;
+    if (light.directional) {
+        if (exact.direction == Vector3{}) light.dead = true;
+        for (int axis = 0; axis < 3; ++axis) light.toward[axis] = rounded(-exact.direction[axis]);
+        light.facing_error = rounded_up(light.exact_gain * 2 * kTriangleNormalError);
+    } else {
+        place_light(tables, exact, light);
+    }
+    if (light.spot) aim_spot(exact, light);
+    return light;
+}
+
+void add_lights(ShadingTables& tables) {
+    const Scene& scene = tables.scene.scene();
+    bool ambient = false;
+    for (const Light& exact : scene.lights) {
+        tables.sound = tables.sound && is_sound(exact.color) && is_sound(exact.intensity) &&
+                       is_sound(exact.ambient_intensity) && is_sound(exact.attenuation) &&
+                       is_sound(exact.units_per_world / tables.scene.frame().scale);
+        tables.lights.push_back(shading_light(tables, exact));
+        if (!is_gray(exact.color)) tables.channels = 3;
+        ambient = ambient || exact.ambient_intensity != 0;
+        if (tables.lights.size() <= kLightsWithFacing && !tables.lights.back().dead)
+            tables.lights.back().facing.resize(tables.scene.triangle_end());
+    }
+    for (const Material& m : scene.materials)
+        tables.any_ambient = tables.any_ambient || (ambient && m.lit && m.ambient_intensity != 0);
+}
+
+void bound_points(ShadingTables& tables) {
+    const ShadingRays& rays = tables.rays;
+    ShadingBounds& bounds = tables.bounds;
+    // P = o + t d: roundings of o and of the sum; of 1 / near and the mean that is near (3.2 u)
+    // and of the product.
+    constexpr double kSceneRadius = 1.75;  // the box is within 1 of 0 on each axis
+    const double world = world_rounding(tables.scene, tables.scene.scene().camera.position);
+    bounds.point_constant = rounded_up(
+        kSlack * (kFloatRoundoff * (length(tables.camera.origin) + kSceneRadius) + world));
+    bounds.point_by_t =
+        rounded_up(kSlack * (4.2 * kFloatRoundoff * static_cast<double>(rays.longest) +
+                             static_cast<double>(rays.error)));
+    // Of a sphere's centre and of a point's last sum.
+    bounds.curved_point_error = rounded_up(kSlack * (kFloatRoundoff * 2 * kSceneRadius + world));
+}
+
+std::vector<BackgroundBand> bands(const std::vector<Color>& colors,
+                                  const std::vector<double>& angles) {
+    std::vector<BackgroundBand> out;
+    if (colors.empty()) return out;
+    const std::size_t count = std::min(angles.size(), colors.size() - 1);
+    double lower = 0;
+    for (std::size_t i = 0; i <= count; ++i) {
+        const bool last = i == count;
+        const double upper = last ? kInfinity : angles[i];
+        const bool flat = last || !(upper > lower);
+        const Color& from = colors[last ? count : flat ? i + 1 : i];
+        const Vector3 step = flat ? Vector3{} : colors[i + 1] - from;
+        BackgroundBand band;
+        band.upper = rounded(upper);
+        band.lower = rounded(lower);
+        band.inverse_width = flat ? 0 : rounded(1 / (upper - lower));
+        put(from, kFullByte, band.color);
+        put(step, kFullByte, band.step);
+        band.step_most = rounded_up(max_norm(step) * kFullByte);
+        band.most = rounded_up(max_norm(from) * kFullByte) + band.step_most;
+        out.push_back(band);
+        lower = upper;
+    }
+    return out;
+}
+
+void add_background(ShadingTables& tables) {
+    const Background& exact = tables.scene.scene().background;
+    ShadingBackground& out = tables.background;
+    out.in_range = true;
+    for (const std::vector<Color>* colors : {&exact.sky_color, &exact.ground_color})
+        for (const Color& c : *colors) {
+            tables.sound = tables.sound && is_sound(c);
+            out.in_range = out.in_range && is_sound(c) && largest(c) <= 1;
+        }
+    if (exact.ground_color.empty() && exact.sky_color.size() <= 1) {
+        const Color color = exact.sky_color.empty() ? Color{} : exact.sky_color[0];
+        put_surely(color, out.middle.data());
+    } else if (exact.sky_color.size() == 1 && exact.ground_color.size() == 1 &&
+               exact.sky_angle.empty() && exact.ground_angle.empty()) {
+        out.kind = ShadingBackground::Kind::kBlend;
+        const Color middle = (exact.sky_color[0] + exact.ground_color[0]) * 0.5;
+        const Color slope = (exact.sky_color[0] - exact.ground_color[0]) * 0.5;
+        for (int c = 0; c < 3; ++c) {
+            out.middle[static_cast<std::size_t>(c)] = rounded(middle[c] * kFullByte);
+            out.slope[static_cast<std::size_t>(c)] = rounded(slope[c] * kFullByte);
+        }
+        // Those of y, of both constants, of the product and of the sum.
+        const double most = max_norm(slope);
+        const auto y = static_cast<double>(tables.rays.sine_error);
+        out.error = rounded_up(kSlack * kFullByte *
+                               (most * y + kFloatRoundoff * (2 * max_norm(middle) + 3 * most)));
+    } else {
+        out.kind = ShadingBackground::Kind::kGradient;
+        out.in_range = false;  // where bounds lie in two bands
+        out.has_ground = !exact.ground_color.empty();
+        out.sky = bands(exact.sky_color, exact.sky_angle);
+        if (out.sky.empty()) out.sky = bands({Color{}}, {});
+        out.ground = bands(exact.ground_color, exact.ground_angle);
+    }
+}
+
+}  // namespace
+
+SurfaceWord surface_word(const ShadingTables& tables, const Object& object) {
+    SurfaceWord word = tables.material_words[object.material];
+    if (const auto* mesh = std::get_if<TriangleMesh>(&object.shape)) {
+        if (!mesh->normals.empty()) word |= kSmoothFlag;
+        if (!mesh->colors.empty()) word |= kColoredFlag;
+    }
+    return word;
+}
+
+ShadingTables::ShadingTables(const FastScene& scene_in, const CameraRays& camera_in,
+                             const BigVector<CameraSphere>& spheres_in, InstructionSet isa_in,
+                             TableFilling filling)
+    : scene(scene_in), camera(camera_in), isa(isa_in), spheres(spheres_in), rays(camera_in) {
+    bound_points(*this);
+    add_materials(*this);
+    add_mesh_flags(*this);
+    add_lights(*this);
+    add_background(*this);
+    const std::size_t triangles = scene.triangle_end();
+    if (!uniform) triangle_words.resize(triangles);
+    const bool few_lights = lights.size() <= kLightsWithFacing;
+    if ((any_flags & kSpecularFlag) != 0 || !few_lights) normals.resize(4 * triangles);
+    if (filling == TableFilling::kNow) fill_tables(scene, 1, *this);
+}
+
+void ShadingTables::take(const TriangleChunk& chunk) { fill_triangles(*this, chunk, isa); }
+
+std::size_t ShadingTables::memory_bytes() const {
+    std::size_t bytes = sizeof(*this) + rays.memory_bytes() +
+                        materials.size() * sizeof(ShadingMaterial) +
+                        (material_words.size() + triangle_words.size()) * sizeof(SurfaceWord) +
+                        normals.size() * sizeof(float) + smooth.size() * sizeof(SmoothTriangle) +
+                        smooth_offsets.size() * sizeof(std::uint32_t);
+    for (const ShadingLight& light : lights)
+        bytes += sizeof(light) + light.facing.size() * sizeof(float);
+    return bytes;
+}
+
+}  // namespace nuvo

@@ -1,0 +1,319 @@
+#include "fast/shadow/light_buffer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "fast/shadow/light_buffer.cpp"
+#include <hwy/foreach_target.h>
+
+#include "fast/shadow/light_cells.h"
+#include "fast/shadow/light_ranges.h"
+
+// Items are sorted into cells by counting. The middle of a sample tells how large they are; most
+// then cover few cells of the finest grid.
+
+HWY_BEFORE_NAMESPACE();
+namespace nuvo::HWY_NAMESPACE {
+
+alignas(64) constexpr std::int32_t kLaneNumbers[16] = {0, 1, 2,  3,  4,  5,  6,  7,
+                                                       8, 9, 10, 11, 12, 13, 14, 15};
+
+class LightBufferMaker {
+  public:
+    LightBufferMaker(LightBuffer& out, const LightPoint& light, const LightBuffer::Source& source)
+        : out_(out),
+          source_(source),
+          triangle_end_(source.scene.triangle_end()),
+          end_(source.scene.slot_end()) {
+        if (!light.finite || !(source.reach < 1.5) || end_ == 0) return;
+        if (!plane_.start(light, source, out, extent_)) cube_.start(light, out, extent_);
+        faces_ = out.inside ? 6 : 1;
+        allow(kLeastError);
+    }
+
+    void run() {
+        if (faces_ == 0) return;
+        choose_grids();
+        out_.starts.resize(cells_ + 2);
+        std::fill(out_.starts.begin(), out_.starts.end(), 0);
+        records_.resize(end_ + end_ / 2 + 16);  // some are seen through several faces
+        for (Slot first = 0; first < end_; first += count_from(first))
+            for_each_face(first, [&](int face, const LightRanges& ranges, std::uint32_t lanes)
+                                     HWY_ATTR { record(first, face, ranges, lanes); });
+        if (add_up()) fill();
+    }
+
+  private:
+    // Cells of a grid are so many times as wide as those of the finer one, and an item that covers
+    // more cells than a cell of the coarser grid does belongs there.
+    static constexpr int kCoarser = 8;
+    // Cells of the finest grid have few items, but are not much smaller than the middle one, which
+    // would be listed often.
+    static constexpr double kMostItems = 16;
+    static constexpr double kMostWide = 3;
+    static constexpr double kLeastWide = 0.75;
+    // Cells for each item on all faces: they have to be counted and added up.
+    static constexpr double kMostCells = 2;
+    // Where an entry's list is longer than this on average the octree is faster.
+    static constexpr double kLongLists = 4096;
+
+    // What points may be off, in the size of the middle item and in general.
+    static constexpr double kErrorShare = 0x1p-4;
+    static constexpr double kLeastError = 0x1p-20;
+    static constexpr double kMostError = 0x1p-14;
+
+    void allow(double error) {
+        out_.point_error = static_cast<float>(error);
+        // A local coordinate, and a sphere's centre and radius, have a rounding of at most 2 each.
+        const double all = error + source_.touch + 4 * kFloatRoundoff;
+        if (out_.inside)
+            cube_.allow(all, out_);
+        else
+            plane_.allow(all);
+    }
+
+    // The cells that an item covers on its grid: at most kCoarser^2 but for the last grid, which
+    // has only one.
+    struct Record {
+        LightEntry entry;
+        std::uint32_t first;
+        std::uint8_t columns;
+        std::uint8_t rows;
+        std::uint8_t grid;
+    };
+    // The same for 16 items.
+    struct Cells {
+        HWY_INLINE Cells(const LightGrid& grid, int face, const Ints (&low)[2],
+                         const Ints (&high)[2]) {
+            const Ints column = cell_of(low[0], grid.columns);
+            const Ints row = cell_of(low[1], grid.rows);
+            const auto base =
+                static_cast<std::int32_t>(grid.first_cell) + face * grid.rows * grid.columns;
+            (column + row * Ints(grid.columns) + Ints(base)).store(first);
+            (cell_of(high[0], grid.columns) - column + Ints(1)).store(columns);
+            (cell_of(high[1], grid.rows) - row + Ints(1)).store(rows);
+        }
+        bool few(int i) const { return columns[i] * rows[i] <= kCoarser * kCoarser; }
+
+        alignas(64) std::int32_t first[16];
+        alignas(64) std::int32_t columns[16];
+        alignas(64) std::int32_t rows[16];
+    };
+
+    /// Calls use(face, ranges, lanes) for the faces on which items [first, first + 16) are met.
+    template <typename Use>
+    HWY_INLINE void for_each_face(Slot first, Use&& use) {
+        const std::uint32_t there = (1U << count_from(first)) - 1;
+        const ItemCorners items = corners(first);
+        if (!out_.inside) {
+            use(0, plane_.of(items), there);
+            return;
+        }
+        cube_.take(items);
+        for (int face = 0; face < 6; ++face) {
+            const LightRanges ranges = cube_.of(face);
+            if ((ranges.lanes & there) != 0) use(face, ranges, ranges.lanes & there);
+        }
+    }
+    // At most 16, of one kind.
+    Slot count_from(Slot first) const {
+        return std::min<Slot>(16, (first < triangle_end_ ? triangle_end_ : end_) - first);
+    }
+    HWY_INLINE ItemCorners corners(Slot first) const {
+        ItemCorners out;
+        const Slot last = first + count_from(first) - 1;
+        alignas(64) float at[3][3][16];
+        for (Slot i = 0; i < 16; ++i) {
+            const Slot slot = std::min(first + i, last);
+            if (first < triangle_end_) {
+                const LocalTriangle& t = source_.scene.triangles()[slot];
+                for (int corner = 0; corner < 3; ++corner)
+                    for (int axis = 0; axis < 3; ++axis)
+                        at[corner][axis][i] = t.corner[corner][axis];
+            } else {
+                const RoundShape& shape = source_.rounds[slot - triangle_end_];
+                for (int axis = 0; axis < 3; ++axis) {
+                    at[0][axis][i] = shape.center[axis] - shape.radius;
+                    at[1][axis][i] = shape.center[axis] + shape.radius;
+                }
+            }
+        }
+        out.count = first < triangle_end_ ? 3 : 2;
+        for (int corner = 0; corner < out.count; ++corner)
+            for (int axis = 0; axis < 3; ++axis)
+                out.at[corner][axis] = Floats::load(at[corner][axis]);
+        return out;
+    }
+
+    void choose_grids() {
+        const double size = sample();
+        for (int i = 0; i < 2; ++i) out_.steps[i] = static_cast<float>(kLightSteps) / extent_[i];
+        const double least =
+            std::sqrt(static_cast<double>(extent_[0]) * extent_[1] * faces_ / (kMostCells * end_));
+        const double fine =
+            std::sqrt(static_cast<double>(extent_[0]) * extent_[1] * faces_ * kMostItems / end_);
+        double width = std::max({std::min(kMostWide * size, fine), kLeastWide * size, least});
+        while (out_.grids.empty() || cells_of(out_.grids.back()) > 1) {
+            const bool last = out_.grids.size() + 1 == LightBuffer::kMaxGrids;
+            const auto count = [&](int i) {
+                return last ? 1 : static_cast<int>(std::clamp(extent_[i] / width, 1.0, 8192.0));
+            };
+            out_.grids.push_back({count(0), count(1), cells_});
+            cells_ += cells_of(out_.grids.back());
+            if (last) break;
+            width *= kCoarser;
+        }
+    }
+    std::uint32_t cells_of(const LightGrid& grid) const {
+        return static_cast<std::uint32_t>(faces_ * grid.columns * grid.rows);
+    }
+    // Goes by some of the items: how large they are tells how far points may be off. Where most of
+    // them keep to a small part of the grid, that becomes the grid, and its border stands for the
+    // rest. Returns the middle size of an item, on the longer of both axes.
+    double sample() {
+        constexpr Slot kBatches = 64;
+        std::vector<float> sizes;
+        std::vector<float> lengths;  // before they were projected
+        std::vector<float> centers[2];
+        for (Slot i = 0; i < kBatches; ++i) {
+            const auto first = static_cast<Slot>(std::uint64_t{end_} * i / kBatches);
+            for_each_face(first, [&](int, const LightRanges& ranges, std::uint32_t lanes) {
+                alignas(64) float size[16];
+                alignas(64) float length[16];
+                alignas(64) float center[2][16];
+                const Floats larger =
+                    max(ranges.high[0] - ranges.low[0], ranges.high[1] - ranges.low[1]);
+                larger.store(size);
+                (out_.inside ? larger * ranges.near : larger).store(length);
+                for (int k = 0; k < 2; ++k)
+                    ((ranges.high[k] + ranges.low[k]) * Floats(0.5F)).store(center[k]);
+                for (; lanes != 0; lanes &= lanes - 1) {
+                    const int lane = std::countr_zero(lanes);
+                    sizes.push_back(size[lane]);
+                    lengths.push_back(length[lane]);
+                    for (int k = 0; k < 2; ++k) centers[k].push_back(center[k][lane]);
+                }
+            });
+        }
+        for (int k = 0; k < 2; ++k) narrow(k, centers[k]);
+        if (sizes.empty()) return extent_[0];
+        allow(std::clamp(quantile(lengths, 0.5) * kErrorShare, kLeastError, kMostError));
+        return quantile(sizes, 0.5);
+    }
+    void narrow(int k, std::vector<float>& centers) {
+        constexpr double kMuch = 4;
+        constexpr double kLeastShare = 0x1p-14;
+        if (centers.empty()) return;
+        const double low = quantile(centers, 0.02);
+        const double high = quantile(centers, 0.98);
+        const double width = 1.5 * (high - low);
+        if (!(kMuch * width < extent_[k]) || width < kLeastShare * extent_[k]) return;
+        out_.low[k] = static_cast<float>(low - 0.25 * (high - low));
+        extent_[k] = static_cast<float>(width);
+    }
+    static double quantile(std::vector<float>& v, double share) {
+        const auto at =
+            v.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(v.size() - 1));
+        std::nth_element(v.begin(), at, v.end());
+        return *at;
+    }
+
+    HWY_INLINE void record(Slot first, int face, const LightRanges& ranges, std::uint32_t lanes) {
+        Ints low[2];
+        Ints high[2];
+        alignas(64) LightEntry entries[16];
+        for (int i = 0; i < 2; ++i) {
+            low[i] = integers_from(step_of(out_, i, ranges.low[i]));
+            high[i] = integers_from(step_of(out_, i, ranges.high[i]));
+        }
+        const auto pair = [](const Ints(&v)[2]) { return v[0] | shift_left<16>(v[1]); };
+        const Ints slots = Ints(static_cast<std::int32_t>(first)) + Ints::load(kLaneNumbers);
+        store_by_fours(slots, bits_of(ranges.near), pair(low), pair(high),
+                       reinterpret_cast<std::int32_t*>(entries));
+        if (used_ + 16 > records_.size()) records_.resize(2 * records_.size() + 16);
+        for (std::size_t g = 0; lanes != 0; ++g) {
+            const Cells cells(out_.grids[g], face, low, high);
+            std::uint32_t left = 0;
+            for (; lanes != 0; lanes &= lanes - 1) {
+                const int i = std::countr_zero(lanes);
+                if (!cells.few(i)) {
+                    left |= lanes & -lanes;
+                    continue;
+                }
+                Record& record = records_[used_++];
+                record = {entries[i], static_cast<std::uint32_t>(cells.first[i]),
+                          static_cast<std::uint8_t>(cells.columns[i]),
+                          static_cast<std::uint8_t>(cells.rows[i]), static_cast<std::uint8_t>(g)};
+                for_each_cell(record, [&](std::uint32_t cell) { ++out_.starts[cell + 2]; });
+            }
+            lanes = left;
+        }
+    }
+    template <typename Use>
+    HWY_INLINE void for_each_cell(const Record& record, Use&& use) const {
+        const auto columns = static_cast<std::uint32_t>(out_.grids[record.grid].columns);
+        std::uint32_t first = record.first;
+        for (std::uint32_t y = 0; y < record.rows; ++y, first += columns)
+            for (std::uint32_t x = 0; x < record.columns; ++x) use(first + x);
+    }
+
+    // Makes starts[c + 1] the start of cell c; false: its lists are too long.
+    bool add_up() {
+        double squares = 0;
+        for (std::size_t cell = 0; cell < cells_; ++cell) {
+            const double length = out_.starts[cell + 2];
+            squares += length * length;
+            out_.starts[cell + 2] += out_.starts[cell + 1];
+        }
+        if (squares <= kLongLists * out_.starts[cells_ + 1]) return true;
+        out_.grids.clear();
+        return false;
+    }
+    // starts[c + 1] is where the next entry of cell c goes, until it is where c + 1 starts.
+    void fill() {
+        constexpr std::size_t kReadAhead = 16;
+        out_.entries.resize(out_.starts[cells_ + 1] + kReadAhead);
+        for (std::size_t i = 0; i < used_; ++i) {
+            const Record& record = records_[i];
+            for_each_cell(record, [&](std::uint32_t cell) {
+                out_.entries[out_.starts[cell + 1]++] = record.entry;
+            });
+        }
+        std::erase_if(out_.grids, [&](const LightGrid& grid) {
+            return out_.starts[grid.first_cell] == out_.starts[grid.first_cell + cells_of(grid)];
+        });
+    }
+
+    LightBuffer& out_;
+    const LightBuffer::Source& source_;
+    Slot triangle_end_;
+    Slot end_;
+    PlaneRanges plane_;
+    CubeRanges cube_;
+    float extent_[2] = {};  // of u and v
+    int faces_ = 0;
+    std::uint32_t cells_ = 0;  // of all grids
+    BigVector<Record> records_;
+    std::size_t used_ = 0;
+};
+
+void make_light_buffer(LightBuffer& out, const LightPoint& light,
+                       const LightBuffer::Source& source) {
+    LightBufferMaker(out, light, source).run();
+}
+
+}  // namespace nuvo::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "fast/simd/dispatch.h"
+
+namespace nuvo {
+
+LightBuffer::LightBuffer(const LightPoint& light, const Source& source, InstructionSet isa) {
+    (NUVO_FOR_ISA(isa, make_light_buffer))(*this, light, source);
+}
+
+}  // namespace nuvo
+#endif

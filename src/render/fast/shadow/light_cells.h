@@ -1,0 +1,94 @@
+// No #pragma once: compiled once for each instruction set (see hwy/foreach_target.h).
+#if defined(NUVO_RENDER_FAST_LIGHT_CELLS_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef NUVO_RENDER_FAST_LIGHT_CELLS_H_
+#undef NUVO_RENDER_FAST_LIGHT_CELLS_H_
+#else
+#define NUVO_RENDER_FAST_LIGHT_CELLS_H_
+#endif
+
+#include "fast/shadow/light_buffer.h"
+#include "fast/shadow/shadow_lanes.h"
+#include "fast/simd/lanes.h"
+
+// Looking up points in a light's grid.
+
+HWY_BEFORE_NAMESPACE();
+namespace nuvo::HWY_NAMESPACE {
+
+/// The step of u (i = 0) or v (1): monotonic.
+HWY_INLINE Floats step_of(const LightBuffer& buffer, int i, const Floats& u) {
+    const Floats at = (u - Floats(buffer.low[i])) * Floats(buffer.steps[i]);
+    return floor(min(max(at, Floats(0.0F)), Floats(kLightSteps - 1)));
+}
+/// The column or row of a step, of `count`.
+HWY_INLINE Ints cell_of(const Ints& step, int count) { return shift_right<16>(step * Ints(count)); }
+
+/// Where 16 points are looked up.
+struct LightPlaces {
+    HWY_INLINE LightPlaces(const LightBuffer& buffer, const LightPoint& light, const Points& p,
+                           const Floats& error) {
+        const Floats* const at[3] = {&p.x, &p.y, &p.z};
+        const Floats weight(static_cast<float>(light.weight));
+        Floats w[3];
+        for (int axis = 0; axis < 3; ++axis)
+            w[axis] =
+                neg_mul_add(*at[axis], weight, Floats(static_cast<float>(light.toward[axis])));
+        if (buffer.inside) {
+            in_cube(w);
+            stretch = Floats(buffer.stretch) / depth;
+            known = (depth >= Floats(buffer.nearest)).bits();
+        } else {
+            const int k = buffer.axis;
+            const int axes[2] = {(k + 1) % 3, (k + 2) % 3};
+            const Floats to_plane = *at[k] / w[k];
+            for (int i = 0; i < 2; ++i) u[i] = neg_mul_add(to_plane, w[axes[i]], *at[axes[i]]);
+            depth = *at[k] * Floats(-buffer.sign);
+            stretch = Floats(buffer.stretch);
+            known = 0xffff;
+        }
+        for (int i = 0; i < 2; ++i) step[i] = step_of(buffer, i, u[i]);
+        known &= (error <= Floats(kMostError)).bits();
+        good = known & (error <= Floats(buffer.point_error)).bits();
+    }
+
+    /// The cells of a grid.
+    HWY_INLINE Ints cells(const LightGrid& grid) const {
+        const Ints column = cell_of(integers_from(step[0]), grid.columns);
+        const Ints row = cell_of(integers_from(step[1]), grid.rows) + face * Ints(grid.rows);
+        return column + row * Ints(grid.columns) + Ints(static_cast<std::int32_t>(grid.first_cell));
+    }
+
+    Floats u[2];
+    Floats step[2];
+    Floats depth;
+    Floats stretch;  ///< bounds what u changes by for an error of 1
+    Ints face{0};
+    std::uint32_t known;  ///< lanes that can be looked up
+    std::uint32_t good;   ///< lanes for which one cell of a grid is enough
+
+  private:
+    // Worse known points may be met all over a grid, or on several faces.
+    static constexpr float kMostError = 0x1p-10F;
+
+    HWY_INLINE void in_cube(const Floats (&w)[3]) {
+        const Floats ax = abs(w[0]);
+        const Floats ay = abs(w[1]);
+        const Floats az = abs(w[2]);
+        const RayMask x = (ax >= ay) & (ax >= az);
+        const RayMask y = without(ay >= az, x);
+        const auto choose = [&](const Floats& a, const Floats& b, const Floats& c)
+                                HWY_ATTR { return select(x, a, select(y, b, c)); };
+        const Floats deep = choose(w[0], w[1], w[2]);
+        depth = abs(deep);
+        const Floats inverse = Floats(1.0F) / depth;
+        u[0] = choose(w[1], w[2], w[0]) * inverse;
+        u[1] = choose(w[2], w[0], w[1]) * inverse;
+        face = integers_from(choose(Floats(0.0F), Floats(2.0F), Floats(4.0F)) +
+                             select(deep < Floats(0.0F), Floats(1.0F), Floats(0.0F)));
+    }
+};
+
+}  // namespace nuvo::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // NUVO_RENDER_FAST_LIGHT_CELLS_H_

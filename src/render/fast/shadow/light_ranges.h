@@ -1,0 +1,247 @@
+// No #pragma once: compiled once for each instruction set (see hwy/foreach_target.h).
+#if defined(NUVO_RENDER_FAST_LIGHT_RANGES_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef NUVO_RENDER_FAST_LIGHT_RANGES_H_
+#undef NUVO_RENDER_FAST_LIGHT_RANGES_H_
+#else
+#define NUVO_RENDER_FAST_LIGHT_RANGES_H_
+#endif
+
+#include <algorithm>
+#include <cmath>
+
+#include "fast/shadow/light_buffer.h"
+#include "fast/simd/lanes.h"
+#include "nuvo/math/error_bounds.h"
+
+// Where 16 items at a time may be met by the ways from a light, rounded outwards.
+//
+// A way from a true point P* through a point Q of an item meets the light's plane or face where Q
+// does, and Q lies less deep. What is looked up is P, which is off by some error at most; so an
+// item's range is widened by how far that, the item's own roundings and those of the map can move
+// u and v.
+
+HWY_BEFORE_NAMESPACE();
+namespace nuvo::HWY_NAMESPACE {
+
+/// The corners of 16 triangles, or the least and the greatest corner of 16 boxes.
+struct ItemCorners {
+    int count;        ///< 3 or 2
+    Floats at[3][3];  ///< by corner, axis
+};
+
+/// What is met of 16 items, by lane.
+struct LightRanges {
+    std::uint32_t lanes;  ///< those that are met at all
+    Floats low[2];        ///< of u and v
+    Floats high[2];
+    Floats near;  ///< depth
+};
+
+/// Through the plane of a light outside of the scene. [light_buffer.h]
+class PlaneRanges {
+  public:
+    /// Fills in `out`'s axis, sign, place and size; false where the light is not far outside.
+    bool start(const LightPoint& light, const LightBuffer::Source& source, LightBuffer& out,
+               float (&extent)[2]) {
+        int k = 0;
+        for (int axis = 1; axis < 3; ++axis)
+            if (std::fabs(light.toward[axis]) > std::fabs(light.toward[k])) k = axis;
+        axis_ = k;
+        for (int axis = 0; axis < 3; ++axis) toward_[axis] = static_cast<float>(light.toward[axis]);
+        weight_ = static_cast<float>(light.weight);
+        const double reach = source.reach;
+        const double toward = std::fabs(light.toward[k]);
+        const double least = toward - light.weight * reach;  // of |W_k|
+        if (!(least > kLeastShare * toward)) return false;
+        double other = 0;
+        for (int axis = 0; axis < 3; ++axis)
+            if (axis != k) other = std::fmax(other, std::fabs(light.toward[axis]));
+        // u = P_u - P_k s, s = W_u / W_k. By a change e of P on each axis s changes by at most
+        // e weight (1 + |s|) / least, u by e (1 + |s|) and P_k times that. W has two roundings of
+        // numbers up to 2; s, the product and the difference three more.
+        const double slope = (other + light.weight * reach) / least;
+        const double roundings = 4 * kFloatRoundoff / least + 4 * kFloatRoundoff;
+        stretch_ = 2 * (1 + slope) * (1 + reach * light.weight / least);
+        rounding_ = 2 * (1 + slope) * reach * roundings;
+        out.inside = false;
+        out.stretch = static_cast<float>(stretch_);
+        out.axis = k;
+        out.sign = light.toward[k] > 0 ? 1.0F : -1.0F;
+        away_ = -out.sign;
+        see(source.scene.octree().bounds, light, out, extent);
+        return true;
+    }
+
+    HWY_INLINE LightRanges of(const ItemCorners& c) const {
+        LightRanges out;
+        out.lanes = 0xffff;
+        for (int i = 0; i < 2; ++i) {
+            const int axis = (axis_ + 1 + i) % 3;
+            const Floats first = meets(c.at[0][axis], c.at[0][axis_], axis);
+            const Floats second = meets(c.at[1][axis], c.at[1][axis_], axis);
+            Floats low = min(first, second);
+            Floats high = max(first, second);
+            const auto add = [&](const Floats& u) HWY_ATTR {
+                low = min(low, u);
+                high = max(high, u);
+            };
+            // The map is projective: the images of corners bound the item's.
+            if (c.count == 3) {
+                add(meets(c.at[2][axis], c.at[2][axis_], axis));
+            } else {
+                add(meets(c.at[0][axis], c.at[1][axis_], axis));
+                add(meets(c.at[1][axis], c.at[0][axis_], axis));
+            }
+            out.low[i] = low - Floats(margin_);
+            out.high[i] = high + Floats(margin_);
+        }
+        Floats near = min(c.at[0][axis_] * Floats(away_), c.at[1][axis_] * Floats(away_));
+        if (c.count == 3) near = min(near, c.at[2][axis_] * Floats(away_));
+        out.near = near - Floats(depth_margin_);
+        return out;
+    }
+
+    /// `error` bounds that of points on each axis, and the items' own.
+    void allow(double error) {
+        margin_ = static_cast<float>(stretch_ * error + rounding_);
+        depth_margin_ = static_cast<float>(2 * error);
+    }
+
+  private:
+    // Seen from nearer, the scene's near side would fill most of the plane.
+    static constexpr double kLeastShare = 0.25;
+    static constexpr float kLeastExtent = 0x1p-20F;
+
+    HWY_INLINE Floats meets(const Floats& p, const Floats& deep, int axis) const {
+        const Floats w = neg_mul_add(p, Floats(weight_), Floats(toward_[axis]));
+        const Floats wk = neg_mul_add(deep, Floats(weight_), Floats(toward_[axis_]));
+        return neg_mul_add(deep, w / wk, p);
+    }
+    // The part of the plane through which the scene is seen: what lies beyond counts as its border.
+    void see(const Bounds3T<float>& box, const LightPoint& light, LightBuffer& out,
+             float (&extent)[2]) const {
+        for (int i = 0; i < 2; ++i) {
+            const int axis = (axis_ + 1 + i) % 3;
+            double low = INFINITY;
+            double high = -INFINITY;
+            for (const double deep : {box.min[axis_], box.max[axis_]})
+                for (const double p : {box.min[axis], box.max[axis]}) {
+                    const double w = light.toward[axis] - light.weight * p;
+                    const double wk = light.toward[axis_] - light.weight * deep;
+                    low = std::fmin(low, p - deep * (w / wk));
+                    high = std::fmax(high, p - deep * (w / wk));
+                }
+            out.low[i] = static_cast<float>(low);
+            extent[i] = std::fmax(static_cast<float>(high - low), kLeastExtent);
+        }
+    }
+
+    int axis_ = 0;
+    float toward_[3] = {};
+    float weight_ = 0;
+    float away_ = 0;
+    double stretch_ = 0;
+    double rounding_ = 0;
+    float margin_ = 0;  // of u and v
+    float depth_margin_ = 0;
+};
+
+/// Through the six faces of a cube around a light among the items. [light_buffer.h]
+class CubeRanges {
+  public:
+    void start(const LightPoint& light, LightBuffer& out, float (&extent)[2]) {
+        for (int axis = 0; axis < 3; ++axis) toward_[axis] = static_cast<float>(light.toward[axis]);
+        weight_ = static_cast<float>(light.weight);
+        out.inside = true;
+        out.stretch = 4 * weight_;
+        for (int i = 0; i < 2; ++i) {
+            out.low[i] = -1;
+            extent[i] = 2;
+        }
+    }
+
+    /// `error` bounds that of points on each axis, and the items' own.
+    void allow(double error, LightBuffer& out) {
+        // W has three roundings of numbers up to 2.
+        error_ = static_cast<float>(weight_ * error + 8 * kFloatRoundoff);
+        out.nearest = 2 * kNear * error_;
+    }
+
+    /// The items that the next calls of of() are about.
+    HWY_INLINE void take(const ItemCorners& c) {
+        count_ = c.count;
+        for (int axis = 0; axis < 3; ++axis) {
+            for (int i = 0; i < c.count; ++i)
+                way_[axis][i] = neg_mul_add(c.at[i][axis], Floats(weight_), Floats(toward_[axis]));
+            low_[axis] = min(way_[axis][0], way_[axis][1]);
+            high_[axis] = max(way_[axis][0], way_[axis][1]);
+            if (c.count == 3) {
+                low_[axis] = min(low_[axis], way_[axis][2]);
+                high_[axis] = max(high_[axis], way_[axis][2]);
+            }
+        }
+    }
+    /// Face 2 k (+ 1): the one on which W_k is the largest (the least) component.
+    HWY_INLINE LightRanges of(int face) const {
+        const int k = face / 2;
+        const bool upper = face % 2 == 0;
+        const Floats least = upper ? low_[k] : -high_[k];
+        const Floats most = upper ? high_[k] : -low_[k];
+        // u(Q) is within 1 + 4 error / W_k of the point's, that within 1.
+        const Floats limit = most + Floats(4 * error_);
+        RayMask met = limit > Floats(0.0F);
+        const int axes[2] = {(k + 1) % 3, (k + 2) % 3};
+        for (const int axis : axes) met = met & (low_[axis] <= limit) & (high_[axis] >= -limit);
+        LightRanges out;
+        out.lanes = met.bits();
+        if (out.lanes == 0) return out;
+        // By a change e of W on each axis u changes by at most 2 e / (W_k - e), for |u| <= 1, and
+        // W_k >= least; as much again for what |u| may be above.
+        const RayMask deep = least > Floats(kNear * error_);
+        const Floats inverse_least = Floats(1.0F) / least;
+        const Floats margin =
+            mul_add(Floats(8 * error_), inverse_least, Floats(8 * kFloatRoundoff));
+        for (int i = 0; i < 2; ++i) {
+            const auto [low, high] = range(axes[i], k, upper, inverse_least, most);
+            out.low[i] = select(deep, low - margin, Floats(-2.0F));
+            out.high[i] = select(deep, high + margin, Floats(2.0F));
+        }
+        out.near = max(least, Floats(0.0F)) - Floats(2 * error_);
+        return out;
+    }
+
+  private:
+    // What lies less deep than this many errors may be met anywhere on a face.
+    static constexpr float kNear = 16;
+
+    struct Range {
+        Floats low;
+        Floats high;
+    };
+    HWY_INLINE Range range(int axis, int k, bool upper, const Floats& inverse_least,
+                           const Floats& most) const {
+        if (count_ == 2) {
+            const Floats inverse_most = Floats(1.0F) / most;
+            return {min(low_[axis] * inverse_least, low_[axis] * inverse_most),
+                    max(high_[axis] * inverse_least, high_[axis] * inverse_most)};
+        }
+        const Floats sign(upper ? 1.0F : -1.0F);
+        const Floats u[3] = {way_[axis][0] / (way_[k][0] * sign),
+                             way_[axis][1] / (way_[k][1] * sign),
+                             way_[axis][2] / (way_[k][2] * sign)};
+        return {min(u[0], min(u[1], u[2])), max(u[0], max(u[1], u[2]))};
+    }
+
+    float toward_[3] = {};
+    float weight_ = 0;
+    float error_ = 0;
+    int count_ = 0;
+    Floats way_[3][3];  // by axis, corner
+    Floats low_[3];
+    Floats high_[3];
+};
+
+}  // namespace nuvo::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // NUVO_RENDER_FAST_LIGHT_RANGES_H_

@@ -1,0 +1,134 @@
+#include "fast/shadow/shadow.h"
+
+#include <algorithm>
+#include <cmath>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "fast/shadow/shadow.cpp"
+#include <hwy/foreach_target.h>
+
+#include "fast/shadow/shadow_beam.h"
+#include "fast/shadow/shadow_block.h"
+#include "fast/shadow/shadow_lookup.h"
+#include "fast/tile/beam.h"
+
+// One light, one tile: points are looked up in the light's buffer; those that cannot be go through
+// the octree, the points of a block as one beam.
+
+HWY_BEFORE_NAMESPACE();
+namespace nuvo::HWY_NAMESPACE {
+
+class ShadowTracer {
+  public:
+    ShadowTracer(ShadowJob& job, const Tile& tile, std::size_t light, const Referee& referee)
+        : context_(job, light),
+          tile_(tile),
+          light_(light),
+          referee_(referee),
+          lookup_(context_, blocks_) {}
+
+    void run(const TileMask& wanted, TileMask& lit) {
+        std::uint32_t unknown[kTileBlocks];
+        for (int b = 0; b < kTileBlocks; ++b) {
+            unknown[b] = 0;
+            if (wanted[b] == 0) continue;
+            blocks_[b].start(context_, tile_, b, wanted[b]);
+            unknown[b] = wanted[b] & ~lookup_.add(b);
+        }
+        lookup_.run();
+        for (int b = 0; b < kTileBlocks; ++b)
+            if (unknown[b] != 0) walk(blocks_[b], unknown[b]);
+        settle();
+        for (int b = 0; b < kTileBlocks; ++b)
+            lit[b] = wanted[b] == 0 ? 0 : static_cast<std::uint16_t>(blocks_[b].waiting());
+    }
+
+  private:
+    // More open questions than this are settled at once: they take memory.
+    static constexpr std::size_t kMostOpen = 4096;
+
+    HWY_NOINLINE void walk(ShadowBlock& block, std::uint32_t lanes) {
+        const ShadowTables& tables = context_.job.tables;
+        const RayMask there = RayMask::from_bits(lanes);
+        const Floats* const at[3] = {&block.points().x, &block.points().y, &block.points().z};
+        float low[3];
+        float high[3];
+        for (int axis = 0; axis < 3; ++axis) {
+            low[axis] = lowest(select(there, *at[axis], Floats(INFINITY)));
+            high[axis] = highest(select(there, *at[axis], Floats(-INFINITY)));
+        }
+        const float error = highest(select(there, block.error(), Floats(0.0F)));
+        const float slack =
+            (error + tables.plane_error()) * (1 + 4 * kFloatRoundoff) + 8 * kFloatRoundoff;
+        Mailbox& mailbox = context_.job.mailbox;
+        mailbox.start();
+        walk_beam(
+            tables.scene().octree(), beam_to_light(context_.table.light, low, high, slack),
+            [](float) { return false; },
+            [&](const std::uint32_t* items, std::uint32_t count, float) HWY_ATTR {
+                for (std::uint32_t i = 0; i < count; ++i)
+                    if (!mailbox.seen(items[i])) block.test(context_, items[i], lanes);
+                if (context_.job.open.size() > kMostOpen) settle();
+                return (block.waiting() & lanes) == 0;
+            });
+    }
+
+    // Asks the referee about the points that nothing has surely blocked, point by point, so that
+    // each point's way is made once.
+    void settle() {
+        std::vector<OpenShadow>& open = context_.job.open;
+        std::sort(open.begin(), open.end(),
+                  [](const auto& a, const auto& b) { return a.lane < b.lane; });
+        for (auto at = open.begin(); at != open.end();) {
+            const std::uint32_t lane = at->lane;
+            const auto end = std::find_if(at, open.end(),
+                                          [lane](const auto& other) { return other.lane != lane; });
+            ShadowBlock& block = blocks_[lane / kBlockLanes];
+            const std::uint32_t bit = 1U << lane % kBlockLanes;
+            if ((block.waiting() & bit) != 0) {
+                const auto i = static_cast<int>(lane);
+                const auto way = referee_.way_to_light(tile_.x + lane_x(i), tile_.y + lane_y(i),
+                                                       tile_.slot[i], light_);
+                if (std::any_of(at, end,
+                                [&](const auto& o) { return referee_.blocks(way, o.item); }))
+                    block.block(bit);
+            }
+            at = end;
+        }
+        open.clear();
+    }
+
+    ShadowContext context_;
+    const Tile& tile_;
+    std::size_t light_;
+    const Referee& referee_;
+    ShadowBlock blocks_[kTileBlocks];
+    ShadowLookup lookup_;
+};
+
+void trace_shadows(ShadowJob& job, const Tile& tile, std::size_t light, const TileMask& wanted,
+                   const Referee& referee, TileMask& lit) {
+    ShadowTracer(job, tile, light, referee).run(wanted, lit);
+}
+
+}  // namespace nuvo::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "fast/simd/dispatch.h"
+
+namespace nuvo {
+
+ShadowStage::ShadowStage(const ShadowTables& tables, InstructionSet isa, bool redo_exactly)
+    : job_{tables, redo_exactly}, trace_(NUVO_FOR_ISA(isa, trace_shadows)) {}
+
+void ShadowStage::trace(const Tile& tile, std::size_t light, const TileMask& wanted,
+                        const Referee& referee, TileMask& lit) {
+    if (job_.tables.scene().scene().lights[light].casts_shadow)
+        trace_(job_, tile, light, wanted, referee, lit);
+    else
+        std::copy(std::begin(wanted), std::end(wanted), std::begin(lit));
+}
+
+}  // namespace nuvo
+#endif

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "fast/scene/mailbox.h"
+#include "fast/shadow/shadow_tables.h"
+#include "fast/tile/referee.h"
+#include "fast/tile/tile.h"
+
+// Shadow rays: the items that may hide a point from a light are found in the light's buffer, and
+// each is tested against the 16 points of a block at a time.
+
+namespace nuvo {
+
+/// A lane of a tile and an item of which floats cannot tell whether it blocks it.
+struct OpenShadow {
+    std::uint32_t lane;
+    Slot item;
+};
+
+/// What one thread needs.
+struct ShadowJob {
+    const ShadowTables& tables;
+    bool redo_exactly;
+    Mailbox mailbox{};
+    std::vector<OpenShadow> open{};
+};
+
+/// Decides which points of a tile the lights reach. For one thread.
+class ShadowStage {
+  public:
+    ShadowStage(const ShadowTables& tables, InstructionSet isa, bool redo_exactly);
+
+    /// Sets in `lit` the lanes of `wanted` that nothing blocks from the light.
+    void trace(const Tile& tile, std::size_t light, const TileMask& wanted, const Referee& referee,
+               TileMask& lit);
+
+  private:
+    ShadowJob job_;
+    void (*trace_)(ShadowJob&, const Tile&, std::size_t light, const TileMask& wanted,
+                   const Referee&, TileMask& lit);
+};
+
+}  // namespace nuvo

@@ -1,0 +1,147 @@
+// No #pragma once: compiled once for each instruction set (see hwy/foreach_target.h).
+#if defined(NUVO_RENDER_FAST_SHADOW_BLOCK_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef NUVO_RENDER_FAST_SHADOW_BLOCK_H_
+#undef NUVO_RENDER_FAST_SHADOW_BLOCK_H_
+#else
+#define NUVO_RENDER_FAST_SHADOW_BLOCK_H_
+#endif
+
+#include <algorithm>
+#include <bit>
+
+#include "fast/shadow/shadow.h"
+#include "fast/shadow/shadow_lanes.h"
+#include "fast/simd/lanes.h"
+#include "fast/tile/tile.h"
+
+// The points of a block and what hides them. A way from a point to the light is blocked as soon as
+// one item surely blocks it; what floats leave open is put aside for the referee, who is asked only
+// about points that nothing blocked surely.
+
+HWY_BEFORE_NAMESPACE();
+namespace nuvo::HWY_NAMESPACE {
+
+/// One light and what tells its shadows.
+struct ShadowContext {
+    ShadowContext(ShadowJob& of, std::size_t light)
+        : job(of), table(of.tables.table(light)), planes(of.tables.planes(light)) {}
+
+    ShadowJob& job;
+    const ShadowTable& table;
+    const ShadowPlanes* planes;
+};
+
+class ShadowBlock {
+  public:
+    HWY_INLINE void start(const ShadowContext& context, const Tile& tile, int block,
+                          std::uint32_t lanes) {
+        const ShadowTables& tables = context.job.tables;
+        first_ = static_cast<std::uint32_t>(block * kBlockLanes);
+        slots_ = reinterpret_cast<const std::int32_t*>(tile.slot) + first_;
+        waiting_ = lanes;
+        points_ = {Floats::load(tile.point[0] + first_), Floats::load(tile.point[1] + first_),
+                   Floats::load(tile.point[2] + first_)};
+        error_ = Floats::load(tile.point_error + first_);
+        plane_error_ = (error_ + Floats(tables.plane_error())) * Floats(kRounded);
+        if (!tables.has_rounds()) return;
+        round_error_ = (error_ + error_ + Floats(tables.round_error())) * Floats(kRounded);
+        ways_ = Ways(context.table.light, points_);
+    }
+
+    const Points& points() const { return points_; }
+    const Floats& error() const { return error_; }
+    /// The lanes that nothing has surely blocked yet.
+    std::uint32_t waiting() const { return waiting_; }
+    /// Ends the waiting of lanes.
+    HWY_INLINE void block(std::uint32_t lanes) { waiting_ &= ~lanes; }
+
+    /// Asks whether `slot` stands in the way of `lanes`; of other lanes it may find so, too.
+    HWY_INLINE void test(const ShadowContext& context, Slot slot, std::uint32_t lanes) {
+        if (slot < context.job.tables.scene().triangle_end())
+            test_triangle(context, slot, lanes);
+        else
+            test_round(context, slot, lanes);
+    }
+
+  private:
+    // Outweighs the roundings of the sum that it multiplies.
+    static constexpr float kRounded = 1 + 4 * kFloatRoundoff;
+
+    HWY_INLINE void test_triangle(const ShadowContext& context, Slot slot, std::uint32_t lanes) {
+        const Floats depth = hidden(context.planes[slot], points_);
+        block((depth > plane_error_).bits());
+        const std::uint32_t open = waiting_ & lanes & ~(depth < -plane_error_).bits();
+        if (HWY_UNLIKELY(open != 0)) leave_triangle(context.job, slot, open, depth > Floats(0.0F));
+    }
+    // A triangle does not hide its own points.
+    HWY_NOINLINE void leave_triangle(ShadowJob& job, Slot slot, std::uint32_t lanes,
+                                     const RayMask& rounded) {
+        put_aside(job, slot, lanes & ~own(slot), rounded.bits());
+    }
+
+    HWY_INLINE void test_round(const ShadowContext& context, Slot slot, std::uint32_t lanes) {
+        const RoundItem item(context.job.tables, context.table, slot);
+        const RoundTest test(item, points_, ways_, round_error_);
+        block(test.blocked());
+        const std::uint32_t open = waiting_ & lanes & ~test.free();
+        if (HWY_UNLIKELY(open != 0)) leave_round(context.job, slot, open, item, test);
+    }
+    // Nor does a sphere where the way to the light leads outwards. Its own points touch it, so they
+    // come here unless their ways lead deep into it.
+    HWY_NOINLINE void leave_round(ShadowJob& job, Slot slot, std::uint32_t lanes,
+                                  const RoundItem& item, const RoundTest& test) {
+        const std::uint32_t of_item = lanes & own(slot);
+        std::uint32_t rounded =
+            (test.square < Floats(item.shape.radius * item.shape.radius)).bits() & ~of_item;
+        if (item.sphere) {
+            const Floats fx = Floats(item.shape.center[0]) - points_.x;
+            const Floats fy = Floats(item.shape.center[1]) - points_.y;
+            const Floats fz = Floats(item.shape.center[2]) - points_.z;
+            const Floats along = mul_add(fx, ways_.x, mul_add(fy, ways_.y, fz * ways_.z));
+            // Off by the way's own error at one end, at most 1 away, and by the point's.
+            const Floats margin = mul_add(ways_.inverse, round_error_, round_error_);
+            const std::uint32_t outwards = (along < -margin).bits();
+            const std::uint32_t inwards = (along > margin).bits();
+            if (item.side == LightSide::kOutside) block(of_item & inwards);
+            lanes &= ~(of_item & outwards);
+            if (item.side == LightSide::kInside) {
+                // The way ends inside: blocked iff it starts outside.
+                const Floats square = mul_add(fx, fx, mul_add(fy, fy, fz * fz));
+                const Floats less = max(Floats(item.shape.radius) - round_error_, Floats(0.0F));
+                block(lanes & ~of_item & (square > test.outside).bits());
+                lanes &= ~(of_item | (square < less * less).bits());
+            }
+            rounded |= of_item & (along > Floats(0.0F)).bits();
+        }
+        put_aside(job, slot, lanes & waiting_, rounded);
+    }
+
+    // Lanes that lie on the primitive.
+    HWY_INLINE std::uint32_t own(Slot slot) const {
+        return (Ints::load(slots_) == Ints(static_cast<std::int32_t>(slot))).bits();
+    }
+    HWY_INLINE void put_aside(ShadowJob& job, Slot slot, std::uint32_t lanes,
+                              std::uint32_t rounded) {
+        if (!job.redo_exactly) {
+            block(lanes & rounded);
+            return;
+        }
+        for (; lanes != 0; lanes &= lanes - 1)
+            job.open.push_back(
+                {first_ + static_cast<std::uint32_t>(std::countr_zero(lanes)), slot});
+    }
+
+    const std::int32_t* slots_;
+    std::uint32_t first_;  // lane of the tile
+    std::uint32_t waiting_;
+    Points points_;
+    Floats error_;
+    Floats plane_error_;
+    Floats round_error_;
+    Ways ways_;
+};
+
+}  // namespace nuvo::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // NUVO_RENDER_FAST_SHADOW_BLOCK_H_

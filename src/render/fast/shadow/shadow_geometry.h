@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+
+#include "fast/scene/fast_scene.h"
+#include "nuvo/scene/light.h"
+
+// What a triangle hides from a light is a cone cut off by the triangle: the points on the inner
+// side of the three planes through the light and an edge, and beyond the triangle's own (shadow
+// volumes: Crow 1977, "Shadow algorithms for computer graphics"). All four are affine functions of
+// the point, for a light at a place and for one in a direction alike; so a shadow ray against a
+// triangle is 12 multiplications and additions and a minimum.
+
+namespace nuvo {
+
+/// A light as the point toward / weight of the local frame; weight 0: the direction `toward` to the
+/// light. No component is greater than 1; the weight is a power of two.
+struct LightPoint {
+    LightPoint(const Light& light, const LocalFrame& frame);
+
+    Vector3 toward;
+    double weight = 0;
+    bool finite = true;  ///< false: out of the range of doubles, nothing below is sure
+};
+
+/// Four functions n.P + w of a point P of the local frame, |n|_1 = 1, positive where the triangle
+/// hides P from the light. The first three belong to the edges, the last to the triangle's plane.
+/// One that double arithmetic cannot place well enough is 0 everywhere: it decides nothing.
+struct alignas(64) ShadowPlanes {
+    float plane[4][4];  ///< n, w
+};
+
+/// A sphere, or one around an ellipsoid, in the local frame.
+struct RoundShape {
+    float center[3];
+    float radius;
+};
+
+/// Where a light stands towards a round shape.
+enum class LightSide : std::uint8_t { kOutside, kInside, kUnknown };
+
+}  // namespace nuvo

@@ -1,0 +1,104 @@
+// No #pragma once: compiled once for each instruction set (see hwy/foreach_target.h).
+#if defined(NUVO_RENDER_FAST_SHADOW_LANES_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef NUVO_RENDER_FAST_SHADOW_LANES_H_
+#undef NUVO_RENDER_FAST_SHADOW_LANES_H_
+#else
+#define NUVO_RENDER_FAST_SHADOW_LANES_H_
+#endif
+
+#include "fast/shadow/shadow_tables.h"
+#include "fast/simd/lanes.h"
+#include "fast/tile/beam_box.h"
+#include "fast/tile/tile.h"
+
+// Points in registers against what hides them from a light.
+
+HWY_BEFORE_NAMESPACE();
+namespace nuvo::HWY_NAMESPACE {
+
+struct Points {
+    Floats x, y, z;
+};
+
+/// The least of the four functions of `t` at the points.
+HWY_INLINE Floats hidden(const ShadowPlanes& t, const Points& p) {
+    const auto at = [&](const float(&n)[4]) HWY_ATTR {
+        return mul_add(p.x, Floats(n[0]),
+                       mul_add(p.y, Floats(n[1]), mul_add(p.z, Floats(n[2]), Floats(n[3]))));
+    };
+    return min(min(at(t.plane[0]), at(t.plane[1])), min(at(t.plane[2]), at(t.plane[3])));
+}
+
+/// The ways from points to a light.
+struct Ways {
+    Floats x, y, z;   ///< unit
+    Floats distance;  ///< infinite for a direction
+    Floats inverse;   ///< of the distance
+
+    HWY_INLINE Ways() = default;
+    HWY_INLINE Ways(const LightPoint& light, const Points& p) {
+        const auto weight = static_cast<float>(light.weight);
+        x = neg_mul_add(p.x, Floats(weight), Floats(static_cast<float>(light.toward.x)));
+        y = neg_mul_add(p.y, Floats(weight), Floats(static_cast<float>(light.toward.y)));
+        z = neg_mul_add(p.z, Floats(weight), Floats(static_cast<float>(light.toward.z)));
+        const Floats square = mul_add(x, x, mul_add(y, y, z * z));
+        const Floats inverse_root = Floats(1.0F) / sqrt(square);
+        x = x * inverse_root;
+        y = y * inverse_root;
+        z = z * inverse_root;
+        inverse = inverse_root * Floats(weight);
+        distance = Floats(1.0F) / inverse;
+    }
+};
+
+/// A sphere, or one around an ellipsoid, with what is known of it towards the light.
+struct RoundItem {
+    HWY_INLINE RoundItem(const ShadowTables& tables, const ShadowTable& table, Slot slot)
+        : shape(tables.round(slot)),
+          sphere(slot < tables.scene().sphere_end()),
+          side(table.round_sides.empty()
+                   ? LightSide::kOutside
+                   : table.round_sides[slot - tables.scene().triangle_end()]) {}
+
+    const RoundShape& shape;
+    bool sphere;
+    LightSide side;
+};
+
+/// The point of a way that is nearest to the centre of a sphere. If it surely lies outside the way
+/// is free: it neither crosses nor touches the sphere. If it surely lies inside, and the light
+/// outside, the way is blocked: it has to come out, at t > 0, wherever it starts; if it starts on
+/// the sphere itself, then inwards. The rounding of the parameter does not matter, for any other is
+/// a point of the way, too.
+struct RoundTest {
+    /// `error` bounds how far ways may be off.
+    HWY_INLINE RoundTest(const RoundItem& item, const Points& p, const Ways& way,
+                         const Floats& error) {
+        const Floats fx = Floats(item.shape.center[0]) - p.x;
+        const Floats fy = Floats(item.shape.center[1]) - p.y;
+        const Floats fz = Floats(item.shape.center[2]) - p.z;
+        const Floats b = mul_add(fx, way.x, mul_add(fy, way.y, fz * way.z));
+        const Floats at = min(max(b, Floats(0.0F)), way.distance);
+        const Floats lx = neg_mul_add(at, way.x, fx);
+        const Floats ly = neg_mul_add(at, way.y, fy);
+        const Floats lz = neg_mul_add(at, way.z, fz);
+        square = mul_add(lx, lx, mul_add(ly, ly, lz * lz));
+        const Floats more = Floats(item.shape.radius) + error;
+        outside = more * more;
+        // Nothing is surely inside of an ellipsoid's sphere.
+        const bool full = item.sphere && item.side == LightSide::kOutside;
+        const Floats less = max(Floats(full ? item.shape.radius : 0.0F) - error, Floats(0.0F));
+        inside = less * less;
+    }
+    HWY_INLINE std::uint32_t free() const { return (square > outside).bits(); }
+    HWY_INLINE std::uint32_t blocked() const { return (square < inside).bits(); }
+
+    Floats square;   ///< of the distance of that point from the centre
+    Floats outside;  ///< beyond this the point lies outside
+    Floats inside;   ///< below this inside
+};
+
+}  // namespace nuvo::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // NUVO_RENDER_FAST_SHADOW_LANES_H_

@@ -1,0 +1,238 @@
+// No #pragma once: compiled once for each instruction set (see hwy/foreach_target.h).
+#if defined(NUVO_RENDER_FAST_SHADOW_LOOKUP_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef NUVO_RENDER_FAST_SHADOW_LOOKUP_H_
+#undef NUVO_RENDER_FAST_SHADOW_LOOKUP_H_
+#else
+#define NUVO_RENDER_FAST_SHADOW_LOOKUP_H_
+#endif
+
+#include <hwy/cache_control.h>
+
+#include <bit>
+#include <cmath>
+
+#include "fast/shadow/light_cells.h"
+#include "fast/shadow/shadow_block.h"
+#include "fast/simd/lanes.h"
+
+// A tile's points are looked up in a light's buffer step by step, each step for all of them: cells,
+// lists, entries, items. So what a step reads is on its way from memory during the one before.
+
+HWY_BEFORE_NAMESPACE();
+namespace nuvo::HWY_NAMESPACE {
+
+class ShadowLookup {
+  public:
+    ShadowLookup(const ShadowContext& context, ShadowBlock* blocks)
+        : context_(context), buffer_(context.table.buffer), blocks_(blocks) {}
+
+    /// Finds the cells of block b's points; returns which lanes can be looked up.
+    HWY_INLINE std::uint32_t add(int b) {
+        if (!buffer_.usable()) return 0;
+        const ShadowBlock& block = blocks_[b];
+        const LightPlaces places(buffer_, context_.table.light, block.points(), block.error());
+        const std::uint32_t good = block.waiting() & places.good;
+        Stored stored;
+        for (int i = 0; i < 2; ++i) places.step[i].store(stored.step[i]);
+        places.depth.store(stored.depth);
+        for (const LightGrid& grid : buffer_.grids) {
+            const Ints cells = places.cells(grid);
+            cells.store(stored.cell);
+            for (std::uint32_t todo = good; todo != 0;) {
+                const int lane = std::countr_zero(todo);
+                const std::uint32_t lanes = todo & (cells == Ints(stored.cell[lane])).bits();
+                todo ^= lanes;
+                Visit& visit = add_visit(b, lanes, static_cast<std::uint32_t>(stored.cell[lane]));
+                if ((lanes & (lanes - 1)) == 0)
+                    put_window(visit, stored, lane);
+                else
+                    put_window(visit, places, lanes);
+            }
+        }
+        const std::uint32_t rough = block.waiting() & places.known & ~places.good;
+        return HWY_UNLIKELY(rough != 0) ? good | add_rough(b, places, rough) : good;
+    }
+
+    /// Tests all points that were added.
+    void run() {
+        for (int i = 0; i < visit_count_; ++i) find_list(visits_[i]);
+        for (int i = 0; i < visit_count_; ++i) scan(visits_[i]);
+        test_candidates();
+        visit_count_ = 0;
+    }
+
+  private:
+    // Points of a block that are looked up in one cell, and the least window around them.
+    struct Visit {
+        std::uint32_t cell;
+        std::uint16_t block;
+        std::uint16_t lanes;
+        std::int32_t low[2];  // steps
+        std::int32_t high[2];
+        float depth;
+        std::uint32_t begin;  // its entries
+        std::uint32_t end;
+    };
+    struct Candidate {
+        Slot slot;
+        std::uint16_t block;
+        std::uint16_t lanes;
+    };
+    struct Stored {
+        alignas(64) float step[2][16];
+        alignas(64) float depth[16];
+        alignas(64) std::int32_t cell[16];
+    };
+    static constexpr int kMaxVisits = 512;
+    static constexpr int kMaxCandidates = 256;
+
+    HWY_INLINE Visit& add_visit(int b, std::uint32_t lanes, std::uint32_t cell) {
+        if (HWY_UNLIKELY(visit_count_ == kMaxVisits)) run();
+        Visit& visit = visits_[visit_count_++];
+        visit.cell = cell;
+        visit.block = static_cast<std::uint16_t>(b);
+        visit.lanes = static_cast<std::uint16_t>(lanes);
+        hwy::Prefetch(&buffer_.starts[cell]);
+        return visit;
+    }
+
+    // Points that are known less well are looked up in all cells where they may be, if these are
+    // few.
+    HWY_NOINLINE std::uint32_t add_rough(int b, const LightPlaces& places, std::uint32_t lanes) {
+        constexpr int kFew = 16;
+        const Floats& error = blocks_[b].error();
+        const Floats moved = places.stretch * error;
+        Rough rough;
+        RayMask on_face = moved >= Floats(0.0F);
+        for (int i = 0; i < 2; ++i) {
+            integers_from(step_of(buffer_, i, places.u[i] - moved)).store(rough.low[i]);
+            integers_from(step_of(buffer_, i, places.u[i] + moved)).store(rough.high[i]);
+            if (buffer_.inside) on_face = on_face & (abs(places.u[i]) + moved < Floats(1.0F));
+        }
+        (places.depth + error).store(rough.depth);
+        places.face.store(rough.face);
+        std::uint32_t added = 0;
+        for (lanes &= on_face.bits(); lanes != 0; lanes &= lanes - 1) {
+            const int lane = std::countr_zero(lanes);
+            // On coarser grids they are fewer.
+            if (cells_of(rough, lane, buffer_.grids.front()).count() > kFew) continue;
+            added |= 1U << lane;
+            for (const LightGrid& grid : buffer_.grids) add_rough(b, rough, lane, grid);
+        }
+        return added;
+    }
+    struct Rough {
+        alignas(64) std::int32_t low[2][16];
+        alignas(64) std::int32_t high[2][16];
+        alignas(64) std::int32_t face[16];
+        alignas(64) float depth[16];
+    };
+    struct Cells {
+        int low[2];
+        int high[2];
+        int count() const { return (high[0] - low[0] + 1) * (high[1] - low[1] + 1); }
+    };
+    static Cells cells_of(const Rough& rough, int lane, const LightGrid& grid) {
+        const auto at = [](std::uint32_t step, int count) {
+            return static_cast<int>(step * static_cast<std::uint32_t>(count) / kLightSteps);
+        };
+        Cells cells;
+        const int counts[2] = {grid.columns, grid.rows};
+        for (int i = 0; i < 2; ++i) {
+            cells.low[i] = at(static_cast<std::uint32_t>(rough.low[i][lane]), counts[i]);
+            cells.high[i] = at(static_cast<std::uint32_t>(rough.high[i][lane]), counts[i]);
+        }
+        return cells;
+    }
+    void add_rough(int b, const Rough& rough, int lane, const LightGrid& grid) {
+        const Cells cells = cells_of(rough, lane, grid);
+        for (int row = cells.low[1]; row <= cells.high[1]; ++row)
+            for (int column = cells.low[0]; column <= cells.high[0]; ++column) {
+                const int cell = (rough.face[lane] * grid.rows + row) * grid.columns + column;
+                Visit& visit =
+                    add_visit(b, 1U << lane, grid.first_cell + static_cast<std::uint32_t>(cell));
+                for (int i = 0; i < 2; ++i) {
+                    visit.low[i] = rough.low[i][lane];
+                    visit.high[i] = rough.high[i][lane];
+                }
+                visit.depth = rough.depth[lane];
+            }
+    }
+
+    static HWY_INLINE void put_window(Visit& visit, const Stored& stored, int lane) {
+        for (int i = 0; i < 2; ++i)
+            visit.low[i] = visit.high[i] = static_cast<std::int32_t>(stored.step[i][lane]);
+        visit.depth = stored.depth[lane];
+    }
+    static HWY_INLINE void put_window(Visit& visit, const LightPlaces& places,
+                                      std::uint32_t lanes) {
+        const RayMask there = RayMask::from_bits(lanes);
+        for (int i = 0; i < 2; ++i) {
+            const Floats& step = places.step[i];
+            visit.low[i] =
+                static_cast<std::int32_t>(lowest(select(there, step, Floats(kLightSteps))));
+            visit.high[i] = static_cast<std::int32_t>(highest(select(there, step, Floats(0.0F))));
+        }
+        visit.depth = highest(select(there, places.depth, Floats(-INFINITY)));
+    }
+
+    HWY_INLINE void find_list(Visit& visit) const {
+        constexpr int kLines = 4;
+        visit.begin = buffer_.starts[visit.cell];
+        visit.end = buffer_.starts[visit.cell + 1];
+        const LightEntry* const entries = buffer_.entries.data() + visit.begin;
+        for (int line = 0; line < kLines; ++line)
+            hwy::Prefetch(entries + line * static_cast<int>(64 / sizeof(LightEntry)));
+    }
+    HWY_INLINE void scan(const Visit& visit) {
+        const Slot triangle_end = context_.job.tables.scene().triangle_end();
+        for (std::uint32_t at = visit.begin; at < visit.end; at += 16) {
+            const LightEntry* const entries = buffer_.entries.data() + at;
+            std::uint32_t found = meets(entries, visit);
+            if (visit.end - at < 16) found &= (1U << (visit.end - at)) - 1;
+            for (; found != 0; found &= found - 1) {
+                const Slot slot = entries[std::countr_zero(found)].slot;
+                if (slot < triangle_end)
+                    hwy::Prefetch(context_.planes + slot);
+                else
+                    hwy::Prefetch(&context_.job.tables.round(slot));
+                candidates_[candidate_count_++] = {slot, visit.block, visit.lanes};
+            }
+            if (candidate_count_ <= kMaxCandidates - 16) continue;
+            test_candidates();
+            if ((blocks_[visit.block].waiting() & visit.lanes) == 0) return;
+        }
+    }
+    // Which of 16 entries may stand before the visiting points.
+    static HWY_INLINE std::uint32_t meets(const LightEntry* entries, const Visit& visit) {
+        Ints slot, near, low, high;
+        Ints::load_by_fours(reinterpret_cast<const std::int32_t*>(entries), slot, near, low, high);
+        const Ints first(0xffff);
+        const auto beside =
+            ((low & first) > Ints(visit.high[0])) | (logical_right<16>(low) > Ints(visit.high[1])) |
+            ((high & first) < Ints(visit.low[0])) | (logical_right<16>(high) < Ints(visit.low[1]));
+        return ~beside.bits() & (floats_of(near) <= Floats(visit.depth)).bits();
+    }
+    HWY_INLINE void test_candidates() {
+        for (int i = 0; i < candidate_count_; ++i) {
+            const Candidate& candidate = candidates_[i];
+            ShadowBlock& block = blocks_[candidate.block];
+            if ((block.waiting() & candidate.lanes) != 0)
+                block.test(context_, candidate.slot, candidate.lanes);
+        }
+        candidate_count_ = 0;
+    }
+
+    const ShadowContext& context_;
+    const LightBuffer& buffer_;
+    ShadowBlock* blocks_;
+    int visit_count_ = 0;
+    int candidate_count_ = 0;
+    Visit visits_[kMaxVisits];
+    Candidate candidates_[kMaxCandidates];
+};
+
+}  // namespace nuvo::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // NUVO_RENDER_FAST_SHADOW_LOOKUP_H_

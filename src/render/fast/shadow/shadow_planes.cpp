@@ -1,0 +1,143 @@
+#include "fast/shadow/shadow_planes.h"
+
+#include <bit>
+
+#include "nuvo/math/error_bounds.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "fast/shadow/shadow_planes.cpp"
+#include <hwy/foreach_target.h>
+
+#include "fast/scene/wide_vectors.h"
+
+// Eight triangles at a time in double. With the light at l / h, v = h a - l and edges e1 = b - a,
+// e2 = c - a: the plane through light and edge e is e x v, the triangle's own e1 x e2, and
+// K = -(e1 x e2).v tells by its sign on which side the light stands.
+
+HWY_BEFORE_NAMESPACE();
+namespace nuvo::HWY_NAMESPACE {
+
+class PlanesMaker {
+  public:
+    explicit PlanesMaker(const ShadowPlanesJob& job)
+        : job_(job),
+          center_(wide(job.scene.frame().center)),
+          toward_(wide(job.light.toward)),
+          scale_(job.scene.frame().scale),
+          weight_(job.light.weight),
+          size_(job.light.weight * job.reach + max_norm(job.light.toward)) {}
+
+    HWY_INLINE void make(const TriangleBatch& batch, Slot first, std::size_t count) {
+        const Wide3 a = load_wide(batch.corner);
+        const Wide3 b = load_wide(batch.corner + 3);
+        const Wide3 c = load_wide(batch.corner + 6);
+        const Wide3 e1 = (b - a) * scale_;
+        const Wide3 e2 = (c - a) * scale_;
+        const Wide3 e3 = (c - b) * scale_;
+        const Wide3 local_a = (a - center_) * scale_;
+        const Wide3 local_b = (b - center_) * scale_;
+        const Wide3 from_a = local_a * weight_ - toward_;
+        const Wide3 from_b = local_b * weight_ - toward_;
+        const Wide3 normal = cross(e1, e2);
+        const Wide norm1_of_e1 = norm1(e1);
+        const Wide norm1_of_e2 = norm1(e2);
+        const Wide edges = norm1_of_e1 * norm1_of_e2;
+        const Wide side = signs(batch, count, dot(normal, from_a), edges);
+        put(0, cross(e1, from_a), side, local_a, norm1_of_e1 * size_);
+        put(1, cross(from_a, e2), side, local_a, norm1_of_e2 * size_);
+        put(2, cross(e3, from_b), side, local_b, norm1(e3) * size_);
+        put(3, normal, Wide(0.0) - side, local_a, edges);
+        // Where the light lies in the plane nothing is hidden from it.
+        if (any_in_plane_)
+            for (std::size_t i = 0; i < count; ++i)
+                if (sides_[i] == 0) columns_.at[3][3][i] = -1;
+        static_assert(sizeof(ShadowPlanes) == 16 * sizeof(float));
+        columns_.write(job_.out[first].plane[0], count);
+    }
+
+  private:
+    // A plane is kept where its normal's relative error is at most this, a quarter of a float's
+    // roundoff: the plane then lies within half a float roundoff of its place in the scene.
+    static constexpr double kShare = 0x1p-26;
+    // Edges have one rounding, v at most four of size_; a component of their product two products
+    // of these, and a difference: 2 (1 + 4 + 1) + 2 roundings; three components; a few to spare.
+    static constexpr double kNormalError = 48 * kUnitRoundoff;
+    // K sums three such components against v, which has four roundings and three more of the sum.
+    static constexpr double kSideError = 2 * kNormalError;
+    static constexpr double kSmallest = 0x1p-900;  // nothing above has lost to underflow
+
+    // 1 where the light is on the side that the normal points to, -1 or 0: of -n.v.
+    HWY_INLINE Wide signs(const TriangleBatch& batch, std::size_t count, const Wide& nv,
+                          const Wide& edges) {
+        const Wide bound = edges * (size_ * Wide(kSideError)) + Wide(kSmallest);
+        const Wide rounded = select(nv > Wide(0.0), Wide(-1.0), Wide(1.0));
+        const std::uint32_t open = ~(abs(nv) > bound).bits() & ((1U << count) - 1);
+        any_in_plane_ = false;
+        if (open == 0) return rounded;
+        rounded.store(sides_);
+        decide(batch, open);
+        return Wide::load(sides_);
+    }
+    HWY_NOINLINE void decide(const TriangleBatch& batch, std::uint32_t open) {
+        for (; open != 0; open &= open - 1) {
+            const auto i = static_cast<std::size_t>(std::countr_zero(open));
+            sides_[i] = exact_light_side(job_.exact_light, batch.triangle(i));
+            any_in_plane_ |= sides_[i] == 0;
+        }
+    }
+
+    HWY_INLINE void put(std::size_t p, const Wide3& normal, const Wide& sign, const Wide3& on_it,
+                        const Wide& magnitude) {
+        const Wide norm = norm1(normal);
+        const auto known = (norm > magnitude * Wide(kNormalError / kShare)) &
+                           (norm > Wide(kSmallest)) & (norm < Wide(1 / kSmallest));
+        const Wide zero(0.0);
+        const Wide factor = select(known, sign / norm, zero);
+        const Wide3 n = select(known, normal, Wide3{zero, zero, zero}) * factor;
+        store_rounded(n.x, columns_.at[p][0]);
+        store_rounded(n.y, columns_.at[p][1]);
+        store_rounded(n.z, columns_.at[p][2]);
+        store_rounded(-dot(n, on_it), columns_.at[p][3]);
+    }
+
+    const ShadowPlanesJob& job_;
+    Wide3 center_;
+    Wide3 toward_;
+    Wide scale_;
+    Wide weight_;
+    Wide size_;  // bounds |v|
+    bool any_in_plane_ = false;
+    alignas(64) double sides_[kBatch];
+    RecordColumns columns_;  // by plane and component
+};
+
+void make_planes(const ShadowPlanesJob& job, const TriangleChunk& chunk) {
+    PlanesMaker maker(job);
+    chunk.for_each_batch([&](const TriangleBatch& batch, Slot first, std::size_t count)
+                             HWY_ATTR { maker.make(batch, first, count); });
+}
+
+}  // namespace nuvo::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "fast/simd/dispatch.h"
+#include "nuvo/math/exact.h"
+
+namespace nuvo {
+
+void make_shadow_planes(const ShadowPlanesJob& job, const TriangleChunk& chunk,
+                        InstructionSet isa) {
+    (NUVO_FOR_ISA(isa, make_planes))(job, chunk);
+}
+
+int exact_light_side(const Light& light, const Triangle& triangle) {
+    const ExactVector a(triangle.a);
+    const ExactVector normal = cross(ExactVector(triangle.b) - a, ExactVector(triangle.c) - a);
+    if (light.kind == Light::Kind::kDirectional)
+        return dot(normal, ExactVector(-light.direction)).sign();
+    return dot(normal, ExactVector(light.location) - a).sign();
+}
+
+}  // namespace nuvo
+#endif

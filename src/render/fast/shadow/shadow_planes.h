@@ -1,0 +1,26 @@
+#pragma once
+
+#include "fast/scene/triangle_chunk.h"
+#include "fast/shadow/shadow_tables.h"
+#include "nuvo/render/fast.h"
+
+namespace nuvo {
+
+/// The planes of triangles as `light` sees them. `reach` bounds the coordinates of the scene in the
+/// local frame.
+struct ShadowPlanesJob {
+    const FastScene& scene;
+    const LightPoint& light;
+    double reach;
+    ShadowPlanes* out;  ///< of slot 0
+    const Light& exact_light;
+};
+
+/// Makes the records of a chunk.
+void make_shadow_planes(const ShadowPlanesJob& job, const TriangleChunk& chunk, InstructionSet isa);
+
+/// On which side of the triangle's plane the light stands, exactly: the sign of n.(L - a), or of
+/// n.d for a direction d to the light; n = (b - a) x (c - a).
+int exact_light_side(const Light& light, const Triangle& triangle);
+
+}  // namespace nuvo

@@ -1,0 +1,173 @@
+#include "fast/shadow/shadow_tables.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fast/shadow/shadow_planes.h"
+#include "nuvo/geometry/predicates.h"
+#include "nuvo/math/error_bounds.h"
+#include "nuvo/math/parallel.h"
+
+namespace nuvo {
+namespace {
+
+// n.P + w with |n|_1 = 1 and |P|, |w| <= reach. Coefficients: one rounding; w + z + y + x: four of
+// a term at most without fused operations; the plane itself is known to one roundoff of 2 reach:
+// 2 (1 + 4 + 1) of reach, and a few more.
+constexpr double kPlaneRoundings = 16;
+
+// In units of reach: center and point rounded and subtracted (6), the vector to the nearest point
+// of the line (12) at a parameter that is itself rounded (20), its square and the radius (13), the
+// direction to the light, which carries the roundings of both its ends (35).
+constexpr double kRoundRoundings = 128;
+// A surface that P touches passes within 2 sqrt(3) + 3/4 of P's error. [numerics: shadow ends]
+constexpr double kTouch = 8;
+
+// The sphere around an ellipsoid, so wide that a point outside is not taken to touch it: touching
+// points have |F| <= R' + (1 + sqrt 2) e |rho| in the terms of numerics: shadow ends, and outside
+// of a sphere of radius (1 + s) times the longest axis |F| > (1 + s) R'.
+double radius_around(const Ellipsoid& ellipsoid, double error) {
+    const Matrix3 adjugate = ellipsoid.linear.adjugate();
+    double rho = 0;
+    double longest = 0;
+    for (int i = 0; i < 3; ++i) {
+        const Vector3& row = adjugate.row[i];
+        rho += std::fabs(row.x) + std::fabs(row.y) + std::fabs(row.z);
+        longest += dot(ellipsoid.linear.row[i], ellipsoid.linear.row[i]);
+    }
+    const double volume = dot(ellipsoid.linear.row[0], adjugate.column(0)) * ellipsoid.radius;
+    return std::sqrt(longest) * ellipsoid.radius * (1 + 4 * error * rho / std::fabs(volume)) *
+           (1 + gamma(64));
+}
+
+}  // namespace
+
+LightPoint::LightPoint(const Light& light, const LocalFrame& frame) {
+    if (light.kind == Light::Kind::kDirectional) {
+        toward = -light.direction;
+        return;
+    }
+    toward = frame.local(light.location);
+    weight = 1;
+    const double norm = max_norm(toward);
+    if (norm > 1) {
+        int exponent = 0;
+        std::frexp(norm, &exponent);
+        weight = std::ldexp(1.0, -exponent);
+        toward = toward * weight;
+    }
+    finite = std::isfinite(norm) && std::isfinite(toward.x + toward.y + toward.z);
+}
+
+ShadowTables::ShadowTables(const FastScene& scene, InstructionSet isa, int threads,
+                           TableFilling filling)
+    : scene_(scene), isa_(isa), threads_(threads) {
+    const Bounds3T<float>& box = scene.octree().bounds;
+    reach_ = std::fmax(max_norm(box.min), max_norm(box.max));
+    if (!std::isfinite(reach_)) reach_ = 1;  // an empty scene
+    // A surface point's error is at most surface_tolerance() of its primitive's coordinates, where
+    // an ellipsoid counts with its reach, at most twice these; and the roundings of the point.
+    touch_ = 4 * surface_tolerance() * scene.largest_coordinate() * scene.frame().scale +
+             kFloatUnderflow;
+    plane_error_ =
+        rounded_up(kPlaneRoundings * kFloatRoundoff * reach_ + 2 * touch_ + kFloatUnderflow);
+    round_error_ =
+        rounded_up(kRoundRoundings * kFloatRoundoff * reach_ + kTouch * touch_ + kFloatUnderflow);
+    rounds_.resize(scene.slot_end() - scene.triangle_end());
+    const std::vector<Light>& lights = scene.scene().lights;
+    const auto casts = [](const Light& light) { return light.casts_shadow; };
+    planes_.resize(static_cast<std::size_t>(std::count_if(lights.begin(), lights.end(), casts)) *
+                   scene.triangle_end());
+    std::size_t made = 0;
+    for (const Light& light : lights) {
+        ShadowTable& table = tables_.emplace_back(LightPoint(light, scene.frame()));
+        if (!light.casts_shadow) continue;
+        table.first_plane = made;
+        made += scene.triangle_end();
+        if (!outside_of_all(table.light)) table.round_sides.resize(rounds_.size());
+    }
+    if (filling == TableFilling::kNow) fill_tables(scene, threads, *this);
+}
+
+void ShadowTables::take(const TriangleChunk& chunk) {
+    for (std::size_t i = 0; i < tables_.size(); ++i) {
+        const Light& light = scene_.scene().lights[i];
+        if (!light.casts_shadow) continue;
+        const ShadowTable& table = tables_[i];
+        ShadowPlanes* const planes = planes_.data() + table.first_plane;
+        if (table.light.finite)
+            make_shadow_planes({scene_, table.light, reach_, planes, light}, chunk, isa_);
+        else
+            std::fill(planes + chunk.first, planes + chunk.last, ShadowPlanes{});
+    }
+}
+
+void ShadowTables::take_rounds(RoundSpan rounds) {
+    for (const RoundShapeSlot& round : rounds) {
+        scene_.soon(round);
+        const std::size_t i = round.slot - scene_.triangle_end();
+        rounds_[i] = round_shape(scene_.object(round.id).shape);
+        for (ShadowTable& table : tables_)
+            if (!table.round_sides.empty())
+                table.round_sides[i] =
+                    table.light.finite ? side(table.light, rounds_[i]) : LightSide::kUnknown;
+    }
+}
+
+void ShadowTables::finish() {
+    for_each_index(threads_, tables_.size(), [&](std::size_t light, int) {
+        ShadowTable& table = tables_[light];
+        if (!scene_.scene().lights[light].casts_shadow) return;
+        table.buffer = LightBuffer(table.light, {scene_, rounds_, reach_, round_error_}, isa_);
+        const auto inside = std::find_if(table.round_sides.begin(), table.round_sides.end(),
+                                         [](LightSide s) { return s != LightSide::kOutside; });
+        if (inside == table.round_sides.end()) table.round_sides.clear();
+    });
+}
+
+RoundShape ShadowTables::round_shape(const Shape& shape) const {
+    const LocalFrame& frame = scene_.frame();
+    Point3 center;
+    double radius = 0;
+    if (const auto* sphere = std::get_if<Sphere>(&shape)) {
+        center = sphere->center;
+        radius = sphere->radius;
+    } else {
+        const auto& ellipsoid = std::get<Ellipsoid>(shape);
+        center = ellipsoid.center;
+        radius = radius_around(ellipsoid, touch_ / frame.scale);
+    }
+    const Vec3<float> local(frame.local(center));
+    return {{local.x, local.y, local.z}, static_cast<float>(radius * frame.scale)};
+}
+
+bool ShadowTables::outside_of_all(const LightPoint& light) const {
+    if (!light.finite) return false;
+    if (light.weight == 0) return true;
+    if (scene_.sphere_end() != scene_.slot_end()) return false;  // what is around them is not in it
+    const Bounds3T<float>& box = scene_.octree().bounds;
+    const double margin = 2 * round_error_ + 8 * kFloatRoundoff * reach_;  // as in side()
+    for (int axis = 0; axis < 3; ++axis)
+        if (light.toward[axis] > (box.max[axis] + margin) * light.weight ||
+            light.toward[axis] < (box.min[axis] - margin) * light.weight)
+            return true;
+    return false;
+}
+
+LightSide ShadowTables::side(const LightPoint& light, const RoundShape& shape) const {
+    const Vector3 from{shape.center[0], shape.center[1], shape.center[2]};
+    const double distance = length(from * light.weight - light.toward);
+    const double radius = shape.radius * light.weight;
+    const double margin = 2 * round_error_ * light.weight + 4 * kFloatRoundoff * radius;
+    if (distance > radius + margin) return LightSide::kOutside;
+    return distance < radius - margin ? LightSide::kInside : LightSide::kUnknown;
+}
+
+std::size_t ShadowTables::memory_bytes() const {
+    std::size_t bytes = rounds_.size() * sizeof(RoundShape) + planes_.size() * sizeof(ShadowPlanes);
+    for (const ShadowTable& table : tables_)
+        bytes += table.round_sides.size() * sizeof(LightSide) + table.buffer.memory_bytes();
+    return bytes;
+}
+
+}  // namespace nuvo

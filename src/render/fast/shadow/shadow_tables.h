@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "fast/scene/fast_scene.h"
+#include "fast/scene/triangle_chunk.h"
+#include "fast/shadow/light_buffer.h"
+#include "fast/shadow/shadow_geometry.h"
+#include "nuvo/math/big_vector.h"
+#include "nuvo/render/fast.h"
+
+namespace nuvo {
+
+struct ShadowTable {
+    explicit ShadowTable(const LightPoint& from) : light(from) {}
+
+    LightPoint light;
+    std::size_t first_plane = 0;       ///< where its planes begin among those of all lights
+    BigVector<LightSide> round_sides;  ///< of slots from triangle_end on; empty: all outside
+    LightBuffer buffer;
+};
+
+/// What the shadow stage needs of scene and lights, shared by all threads.
+class ShadowTables {
+  public:
+    ShadowTables(const FastScene& scene, InstructionSet isa, int threads = 1,
+                 TableFilling filling = TableFilling::kNow);
+
+    /// For fill_tables(); by several threads at a time.
+    void take(const TriangleChunk& chunk);
+    void take_rounds(RoundSpan rounds);
+    void finish();
+
+    const FastScene& scene() const { return scene_; }
+    /// Of light i; empty where it casts no shadow.
+    const ShadowTable& table(std::size_t light) const { return tables_[light]; }
+    /// Of light i, by slot; none where it casts no shadow.
+    const ShadowPlanes* planes(std::size_t light) const {
+        return planes_.data() + tables_[light].first_plane;
+    }
+    const RoundShape& round(Slot slot) const { return rounds_[slot - scene_.triangle_end()]; }
+    bool has_rounds() const { return !rounds_.empty(); }
+
+    /// Bounds |n.P + w - the true function at SurfacePoint::point|, evaluated in float, but for
+    /// what P's own error (on each axis) adds; and a lit point's SurfacePoint::error.
+    float plane_error() const { return plane_error_; }
+    /// Bounds how far a float segment from point to light lies from the true one within the scene,
+    /// but for twice P's own error; with a margin in which round shapes count as touched.
+    float round_error() const { return round_error_; }
+
+    std::size_t memory_bytes() const;
+
+  private:
+    /// Whether the light is a direction or stands where the scene surely does not reach.
+    bool outside_of_all(const LightPoint& light) const;
+    RoundShape round_shape(const Shape& shape) const;
+    LightSide side(const LightPoint& light, const RoundShape& shape) const;
+
+    const FastScene& scene_;
+    InstructionSet isa_;
+    int threads_;
+    double reach_;  // largest |coordinate| of the scene's box in the local frame
+    double touch_;  // bounds SurfacePoint::error, in the local frame
+    float plane_error_;
+    float round_error_;
+    BigVector<RoundShape> rounds_;
+    std::vector<ShadowTable> tables_;
+    BigVector<ShadowPlanes> planes_;
+};
+
+}  // namespace nuvo

@@ -1,0 +1,183 @@
+// No #pragma once: compiled once for each instruction set (see hwy/foreach_target.h).
+#if defined(NUVO_RENDER_FAST_BEAM_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef NUVO_RENDER_FAST_BEAM_H_
+#undef NUVO_RENDER_FAST_BEAM_H_
+#else
+#define NUVO_RENDER_FAST_BEAM_H_
+#endif
+
+#include <hwy/cache_control.h>
+
+#include <bit>
+
+#include "fast/simd/lanes.h"
+#include "fast/tile/beam_box.h"
+#include "nuvo/math/error_bounds.h"
+#include "nuvo/octree/compact.h"
+
+// A group of rays walks the octree as one: interval arithmetic over the group (Boulos, Wald and
+// Benthin 2008, "Adaptive ray packet reordering"; Wald et al. 2007, MLRTA) in the parametric,
+// top-down form (Revelles, Urena and Lastra 2000), all eight octants of a node in one register.
+//
+// On each axis a ray of the beam is inside the slab [x0, x1] at t only if
+//     t * direction_high >= x0 - origin_high    and    t * direction_low <= x1 - origin_low.
+// Each inequality bounds t from below or from above, by the sign of its coefficient; where the
+// directions straddle 0 both bound it from below. So a beam needs no common signs, and no octant
+// is missed: the rounding of each bound is made up for by kWiden.
+
+HWY_BEFORE_NAMESPACE();
+namespace nuvo::HWY_NAMESPACE {
+
+/// The slab tests of one beam. kStraddles: on some axis the directions have both signs.
+template <bool kStraddles>
+class BeamSlabs {
+  public:
+    explicit HWY_INLINE BeamSlabs(const BeamBox& beam)
+        : t_end_(beam.t_end * (1 + kWiden)), flip_(beam.far_first ? 7 : 0) {
+        for (int axis = 0; axis < 3; ++axis) {
+            const float low = beam.direction_low[axis];
+            const float high = beam.direction_high[axis];
+            forward_[axis] = high > 0;
+            if (high > 0) {
+                entry_scale_[axis] = (1 - kWiden) / high;
+                entry_origin_[axis] = beam.origin_high[axis];
+                exit_origin_[axis] = beam.origin_low[axis];
+                set_exit(axis, low < 0, 1 / low);
+            } else {
+                entry_scale_[axis] = (1 - kWiden) / low;
+                entry_origin_[axis] = beam.origin_low[axis];
+                exit_origin_[axis] = beam.origin_high[axis];
+                set_exit(axis, false, 1 / high);
+            }
+            if (low + high < 0) flip_ ^= 1U << axis;
+        }
+    }
+
+    /// Octant o ^ flip() for o = 0..7 is an order from near to far (or from far to near).
+    unsigned flip() const { return flip_; }
+
+    /// The octants of the voxel that the beam may meet; `entry` takes lower bounds of t.
+    HWY_INLINE std::uint32_t meets(const float* low, const float* cut, const float* high,
+                                   float* entry) const {
+        OctantFloats first(0.0F);
+        OctantFloats last(t_end_);
+        for (int axis = 0; axis < 3; ++axis) {
+            const bool forward = forward_[axis];
+            const OctantFloats lower = by_octant(axis, low[axis], cut[axis]);
+            const OctantFloats upper = by_octant(axis, cut[axis], high[axis]);
+            const OctantFloats near = (forward ? lower : upper) - OctantFloats(entry_origin_[axis]);
+            const OctantFloats far = (forward ? upper : lower) - OctantFloats(exit_origin_[axis]);
+            first = max(first, near * OctantFloats(entry_scale_[axis]));
+            if constexpr (kStraddles) {
+                first = max(first, far * OctantFloats(other_entry_scale_[axis]));
+                last = min(last, mul_add(far, OctantFloats(exit_scale_[axis]),
+                                         OctantFloats(exit_add_[axis])));
+            } else {
+                last = min(last, far * OctantFloats(exit_scale_[axis]));
+            }
+        }
+        first.store(entry);
+        return (first <= last).bits();
+    }
+
+  private:
+    // A bound is a difference, a quotient of roundings below: 4 units of 2^-24, here twice that.
+    static constexpr float kWiden = 8 * kFloatRoundoff;
+
+    HWY_INLINE void set_exit(int axis, bool bounds_below, float inverse) {
+        other_entry_scale_[axis] = bounds_below ? inverse * (1 - kWiden) : 0;
+        exit_scale_[axis] = bounds_below ? 0 : inverse * (1 + kWiden);
+        exit_add_[axis] = bounds_below ? t_end_ : 0;
+    }
+    static HWY_INLINE OctantFloats by_octant(int axis, float lower, float upper) {
+        constexpr std::uint32_t kUpper[3] = {0xaa, 0xcc, 0xf0};
+        return select(LaneMask<float, 8>::from_bits(kUpper[axis]), OctantFloats(upper),
+                      OctantFloats(lower));
+    }
+
+    float t_end_;
+    bool forward_[3];  // the nearer face is the lower one
+    float entry_origin_[3];
+    float exit_origin_[3];
+    float entry_scale_[3];
+    float exit_scale_[3];
+    float exit_add_[3];
+    float other_entry_scale_[3];
+    unsigned flip_;
+};
+
+/// Bit i of the result is bit i ^ flip of the 8 bits.
+HWY_INLINE std::uint32_t flipped(std::uint32_t bits, unsigned flip) {
+    if (flip & 1) bits = (bits & 0x55) << 1 | (bits & 0xaa) >> 1;
+    if (flip & 2) bits = (bits & 0x33) << 2 | (bits & 0xcc) >> 2;
+    if (flip & 4) bits = (bits & 0x0f) << 4 | (bits & 0xf0) >> 4;
+    return bits;
+}
+
+/// Calls `leaf(items, count, entry)` for each leaf that the beam may meet, in the beam's order,
+/// until it returns true; then returns true. `skip(entry)`: whether nothing from t = entry on
+/// matters.
+template <bool kStraddles, typename Skip, typename Leaf>
+HWY_INLINE bool walk_beam(const CompactOctree& octree, const BeamSlabs<kStraddles>& slabs,
+                          Skip&& skip, Leaf&& leaf) {
+    // On the stack a voxel is its low faces, a word of no meaning, its high faces and another:
+    // apart from the rest, so that it is written and read by whole registers.
+    struct alignas(32) Voxel {
+        float face[8];
+    };
+    struct Place {
+        float t;
+        std::uint32_t node;
+    };
+    constexpr int kStack = 7 * CompactOctree::kMaxDepth + 1;
+    Voxel voxels[kStack];
+    Place places[kStack];
+    const CompactNode* const nodes = octree.nodes.data();
+    const auto& [low, high] = octree.bounds;
+    Voxel voxel{{low.x, low.y, low.z, 0, high.x, high.y, high.z, 0}};
+    Place at{0, 0};
+    int waiting = 0;
+    for (;;) {
+        const CompactNode& node = nodes[at.node];
+        std::uint32_t ahead = 0;
+        if (node.is_leaf()) {
+            if (leaf(octree.items.data() + node.first_item(), node.item_count(), at.t)) return true;
+        } else {
+            hwy::Prefetch(nodes + node.first_child());
+            float entry[8];
+            ahead = slabs.meets(voxel.face, node.cut, voxel.face + 4, entry) & node.mask();
+            ahead = flipped(ahead, slabs.flip());
+            const OctantFloats faces = OctantFloats::load(voxel.face);
+            const OctantFloats cut = OctantFloats::load_repeated(node.cut);
+            // The farthest first, so that the nearest is taken up next.
+            while (ahead != 0) {
+                const auto order = static_cast<unsigned>(31 - std::countl_zero(ahead));
+                const unsigned octant = order ^ slabs.flip();
+                ahead ^= 1U << order;
+                // Upper on an axis: the cut is the low face; else the high one.
+                const std::uint32_t moved = octant | (~octant & 7) << 4;
+                select(LaneMask<float, 8>::from_bits(moved), cut, faces)
+                    .store(voxels[waiting].face);
+                places[waiting++] = {entry[octant], node.child(octant)};
+            }
+        }
+        do {
+            if (waiting == 0) return false;
+            at = places[--waiting];
+        } while (skip(at.t));
+        voxel = voxels[waiting];
+    }
+}
+
+/// The same, choosing the cheaper slab tests where no axis is straddled.
+template <typename Skip, typename Leaf>
+HWY_INLINE bool walk_beam(const CompactOctree& octree, const BeamBox& beam, Skip&& skip,
+                          Leaf&& leaf) {
+    if (beam.straddles()) return walk_beam(octree, BeamSlabs<true>(beam), skip, leaf);
+    return walk_beam(octree, BeamSlabs<false>(beam), skip, leaf);
+}
+
+}  // namespace nuvo::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // NUVO_RENDER_FAST_BEAM_H_

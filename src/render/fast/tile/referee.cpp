@@ -1,0 +1,44 @@
+#include "fast/tile/referee.h"
+
+#include <cmath>
+#include <limits>
+
+namespace nuvo {
+namespace {
+
+// A float nearest to x is within this much of it, relatively; one more for the operations before.
+constexpr float kRounded = 2 * std::numeric_limits<float>::epsilon();
+
+}  // namespace
+
+std::optional<Referee::Nearest> Referee::nearer(int x, int y, Slot slot, Slot other) const {
+    const Ray ray = camera_.rays.ray(x, y);
+    const ExactRay prepared = kernel_.prepare(ray);
+    const auto hit = kernel_.hit_of(prepared, scene_.id(slot));
+    if (!hit) return std::nullopt;
+    if (other != kNoSlot) {
+        const auto best = kernel_.hit_of(prepared, scene_.id(other));
+        if (best && !kernel_.precedes(prepared, *hit, *best)) return std::nullopt;
+    }
+    // The exact ray's direction has length 1, the local one's is that of camera_.direction().
+    const double scaled = length(camera_.direction(camera_.center_x(x), camera_.center_y(y))) /
+                          (hit->root.t * scene_.frame().scale);
+    const auto inverse = static_cast<float>(scaled);
+    Nearest nearest{inverse * (1 - kRounded), inverse * (1 + kRounded), {}};
+    if (slot >= scene_.triangle_end()) {
+        const Object& object = scene_.scene().objects[scene_.source(slot).object];
+        Object solid{{}, object.material, object.shape_index, true};
+        nearest.normal = kernel_.surface(prepared, *hit, solid).normal;
+    }
+    return nearest;
+}
+
+Referee::Kernel::Shadow Referee::way_to_light(int x, int y, Slot lit, std::size_t light) const {
+    const ExactRay prepared = kernel_.prepare(camera_.rays.ray(x, y));
+    const auto hit = kernel_.hit_of(prepared, scene_.id(lit));
+    const Object& object = scene_.scene().objects[scene_.source(lit).object];
+    const auto surface = kernel_.surface(prepared, *hit, object);
+    return kernel_.shadow(surface, scene_.scene().lights[light]);
+}
+
+}  // namespace nuvo

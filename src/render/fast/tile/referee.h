@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "exact_kernel.h"
+#include "fast/scene/fast_scene.h"
+#include "fast/tile/tile.h"
+#include "surface_color.h"
+
+// What the float stages of the fast tracer leave open is decided here, pixel by pixel, by the very
+// predicates of the serial tracer (geometry/predicates.h): so the pictures are the same.
+
+namespace nuvo {
+
+/// Decides for one thread.
+class Referee {
+    using Kernel = ExactKernelOf<SceneStore>;
+
+  public:
+    Referee(const FastScene& scene, const CameraRays& camera)
+        : scene_(scene),
+          camera_(camera),
+          kernel_(scene.scene(), scene.primitives(), scene.triangle_box(), std::nullopt) {}
+
+    /// A hit found exactly: bounds on 1 / t in the local frame, and for a round primitive its
+    /// normal.
+    struct Nearest {
+        float low;
+        float high;
+        Vector3 normal;
+    };
+    /// The hit of pixel (x, y) on `slot`, if there is one and it comes before the one on `other`
+    /// (kNoSlot: none).
+    std::optional<Nearest> nearer(int x, int y, Slot slot, Slot other) const;
+
+    /// The way to a light from the point that pixel (x, y) shows on `lit`.
+    Kernel::Shadow way_to_light(int x, int y, Slot lit, std::size_t light) const;
+    /// Whether `occluder` stands on that way.
+    bool blocks(const Kernel::Shadow& way, Slot occluder) const {
+        const PrimitiveId id = scene_.id(occluder);
+        return kernel_.blocks(way, {id, id + 1});
+    }
+
+    /// The pixel's color, given what it shows (kNoSlot: the background) and which lights are not
+    /// blocked (bit i of the predicate; lights that do not cast shadows are asked for, too).
+    template <typename Unblocked>
+    Color color(int x, int y, Slot slot, Unblocked&& unblocked) const {
+        const Ray ray = camera_.rays.ray(x, y);
+        if (slot == kNoSlot) return scene_.scene().background.color(ray.direction);
+        const ExactRay prepared = kernel_.prepare(ray);
+        const Kernel::Hit hit = *kernel_.hit_of(prepared, scene_.id(slot));
+        return surface_color(scene_.scene(), kernel_, prepared, hit, ray,
+                             [&](const auto&, std::size_t light) { return unblocked(light); });
+    }
+
+  private:
+    const FastScene& scene_;
+    const CameraRays& camera_;
+    Kernel kernel_;
+};
+
+}  // namespace nuvo

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+
+#include "fast/scene/fast_scene.h"
+#include "nuvo/scene/camera.h"
+
+// The state of one tile of the picture while the stages of the fast tracer work on it: primary
+// rays, surfaces, and for each light samples, shadows and sums. Lanes stand block by block, a block
+// being 4 x 4 pixels, so that the 16 rays of a register are neighbours on both axes.
+
+namespace nuvo {
+
+inline constexpr int kTileSide = 16;  ///< pixels
+inline constexpr int kBlockSide = 4;  ///< pixels
+inline constexpr int kBlockLanes = 16;
+inline constexpr int kTileBlocks = 16;
+inline constexpr int kTileLanes = kTileBlocks * kBlockLanes;
+
+/// Pixel of a lane relative to the tile's first.
+constexpr int lane_x(int lane) { return (lane / 16 % 4) * 4 + lane % 4; }
+constexpr int lane_y(int lane) { return (lane / 64) * 4 + lane / 4 % 4; }
+
+/// One bit for each lane of each block: bit i of [b] is lane 16 b + i.
+using TileMask = std::uint16_t[kTileBlocks];
+
+/// Unless said otherwise lengths are those of the local frame; t counts in units of the ray's
+/// unnormalized direction (CameraRays::direction), whose component along the view is 1.
+struct alignas(64) Tile {
+    int x = 0;  ///< the tile's first pixel
+    int y = 0;
+    TileMask inside;  ///< lanes that are pixels of the picture
+
+    // Primary rays. The nearest primitive is decided exactly; bounds on 1 / t of its hit.
+    Slot slot[kTileLanes];  ///< kNoSlot: the background
+    float near_low[kTileLanes];
+    float near_high[kTileLanes];
+    float round_normal[3][kTileLanes];  ///< of ellipsoids: unit, outwards
+    float round_error[kTileLanes];      ///< bounds the error of round_normal on each axis
+    TileMask hit;
+
+    // Surfaces: of lanes that hit something lit.
+    float point[3][kTileLanes];
+    float point_error[kTileLanes];  ///< bounds |point - SurfacePoint::point| on each axis
+    float normal[3][kTileLanes];    ///< for shading: unit, turned as shading_normal() turns it
+};
+
+/// The primary rays of a picture as an affine function of the pixel, which RayGenerator's are but
+/// for their length: [eq. 34, 35] in double, in the local frame.
+struct CameraRays {
+    CameraRays(const Camera& camera, Resolution size, const LocalFrame& frame);
+
+    /// Pixel coordinates count from the picture's centre: X = x + 0.5 - width / 2.
+    Vector3 direction(double from_center_x, double from_center_y) const {
+        return forward + right * from_center_x + down * from_center_y;
+    }
+    double center_x(int x) const { return x + 0.5 - 0.5 * resolution.width; }
+    double center_y(int y) const { return y + 0.5 - 0.5 * resolution.height; }
+
+    Resolution resolution;
+    RayGenerator rays;  ///< the exact rays, in world space
+    Point3 origin;
+    Vector3 forward;
+    Vector3 right;  ///< to the next pixel of the row
+    Vector3 down;   ///< to the next row
+};
+
+}  // namespace nuvo
