@@ -1,0 +1,93 @@
+#include "trial_cut.h"
+
+#include <cmath>
+#include <limits>
+
+namespace nuvo {
+namespace {
+
+// A voxel thinner than this many units in the last place of its coordinates is not cut: each half
+// must still hold points that differ from its faces.
+constexpr double kThinnestCutUlps = 8;
+
+bool thin(const Bounds3& box, int axis) {
+    const double size = std::fmax(std::fabs(box.min[axis]), std::fabs(box.max[axis]));
+    const double ulp = std::nextafter(size, std::numeric_limits<double>::infinity()) - size;
+    return !(box.max[axis] - box.min[axis] > kThinnestCutUlps * ulp);
+}
+
+// The far half of an axis that was not cut: its neighbour lists all that is near it.
+bool empty_slab(const Bounds3& box) {
+    return box.min.x == box.max.x || box.min.y == box.max.y || box.min.z == box.max.z;
+}
+
+}  // namespace
+
+std::size_t TrialCut::references() const {
+    std::size_t sum = 0;
+    for (const Items& octant : octants) sum += octant.size();
+    return sum;
+}
+
+SahTotals sums_after(SahTotals sums, const TrialCut& trial, std::size_t items) {
+    const double area = trial.voxel.bounds.surface_area();
+    sums.interior_area += area;
+    sums.leaf_area -= area;
+    sums.leaf_area_objects -= area * static_cast<double>(items);
+    sums.leaves += 7;
+    for (int digit = 1; digit <= 8; ++digit) {
+        const double octant_area = trial.voxel.octant(digit).surface_area();
+        const Items& octant = trial.octants[static_cast<std::size_t>(digit - 1)];
+        sums.leaf_area += octant_area;
+        sums.leaf_area_objects += octant_area * static_cast<double>(octant.size());
+    }
+    return sums;
+}
+
+Cutter::Cutter(std::span<const Bounds3> boxes, const BuildOptions& options) : options_(options) {
+    boxes_.reserve(boxes.size());
+    for (const Bounds3& box : boxes) boxes_.push_back(box.inflated(options.margin));
+}
+
+Bounds3 Cutter::root() const {
+    Bounds3 root;
+    for (const Bounds3& box : boxes_) root = root.extended(box);
+    return root.empty() ? Bounds3{{0, 0, 0}, {0, 0, 0}} : root;
+}
+
+std::optional<TrialCut> Cutter::cut(const Voxel& voxel, const Items& items) {
+    const std::optional<Point3> midpoint = choose_midpoint(voxel, items);
+    if (!midpoint) return std::nullopt;
+    TrialCut trial{{voxel.bounds, *midpoint}, {}};
+    for (int digit = 1; digit <= 8; ++digit)
+        distribute(trial.voxel.octant(digit), items,
+                   trial.octants[static_cast<std::size_t>(digit - 1)]);
+    return trial;
+}
+
+std::optional<Point3> Cutter::choose_midpoint(const Voxel& voxel, const Items& items) {
+    query_boxes_.clear();
+    for (ItemId id : items) query_boxes_.push_back(boxes_[id]);
+    std::optional<Point3> midpoint = options_.midpoint({voxel, query_boxes_, options_.margin});
+    if (!midpoint) return midpoint;
+    int cut_axes = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (thin(voxel.bounds, axis))
+            (*midpoint)[axis] = voxel.bounds.max[axis];
+        else
+            ++cut_axes;
+    }
+    if (cut_axes == 0) return std::nullopt;
+    return midpoint;
+}
+
+void Cutter::distribute(const Bounds3& octant, const Items& items, Items& out) const {
+    if (options_.margin > 0 && empty_slab(octant)) return;
+    // The overlap test sees the voxel grown by the margin; the boxes are grown already.
+    const Bounds3 grown = octant.inflated(options_.margin);
+    for (ItemId id : items)
+        if (boxes_[id].overlaps(octant) && (!options_.overlaps || options_.overlaps(id, grown)))
+            out.push_back(id);
+}
+
+}  // namespace nuvo
