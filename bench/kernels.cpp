@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint64_t kSeed = 1;
 constexpr std::size_t kPairs = 4096;
-constexpr const char* kSmallScene = "testfiles/test2.x3d";
+constexpr const char* kSmallScene = "testfiles/both.x3d";
 constexpr const char* kMeshScene = "testfiles/teapot.x3d";
 
 class Random {
@@ -116,7 +116,7 @@ BENCHMARK(midpoint_search<mlsl_sbplx_midpoint>)->Arg(100)->Arg(10'000);
 void load_scene(benchmark::State& state, const char* file) {
     for (auto _ : state) benchmark::DoNotOptimize(x3d::read_file(file));
 }
-BENCHMARK_CAPTURE(load_scene, test2, kSmallScene)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(load_scene, both, kSmallScene)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(load_scene, teapot, kMeshScene)->Unit(benchmark::kMillisecond);
 
 /// An item is a primitive.
@@ -127,7 +127,7 @@ void build_reference_tree(benchmark::State& state, const char* file) {
     state.SetItemsProcessed(
         static_cast<std::int64_t>(state.iterations() * primitives.sources.size()));
 }
-BENCHMARK_CAPTURE(build_reference_tree, test2, kSmallScene)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(build_reference_tree, both, kSmallScene)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(build_reference_tree, teapot, kMeshScene)->Unit(benchmark::kMillisecond);
 
 /// An item is a primitive.
@@ -165,7 +165,7 @@ void single_rays(benchmark::State& state, const char* file) {
     for (auto _ : state) benchmark::DoNotOptimize(tracer.closest_hits(rays));
     state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations() * kPairs));
 }
-BENCHMARK_CAPTURE(single_rays, test2, kSmallScene)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(single_rays, both, kSmallScene)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(single_rays, teapot, kMeshScene)->Unit(benchmark::kMillisecond);
 
 }  // namespace

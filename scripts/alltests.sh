@@ -55,7 +55,7 @@ rm -f "$out"/raw/*.json
 settings=("thesis-12 --profile=thesis --costs=thesis:12"
     "thesis-8 --profile=thesis --costs=thesis"
     "exact --profile=exact")
-scenes=(test1 test2 test3 test4)
+scenes=(trianglemesh both concentric clumped)
 [ $base = no ] || scenes=(teapot "${scenes[@]}")
 
 # A higher priority where it is allowed, as the thesis. [thesis 5.7.1]

@@ -9,8 +9,8 @@ usage() {
 usage: scripts/bench_peers.sh [part]... [flag]...
 Parts (all unless some are given):
   --scenes[=LIST]  frames, builds, single rays, price of exactness and threads of the thesis' scenes,
-                   far and near; LIST: of teapot test1 test2 test3 test4, separated by commas
-  --large          test 2 a hundred times (800,000 triangles) and 1,000,000 spheres, far and near
+                   far and near; LIST: of teapot trianglemesh both concentric clumped, with commas
+  --large          100,000 octahedra (800,000 triangles) and 1,000,000 spheres, far and near
   --growth         10^3 to 10^7 triangles
   --isa            every instruction set
   --povray         whole commands beside povray +WT1
@@ -30,7 +30,7 @@ fail() {
 }
 
 out=$nuvo_root/results/peers rounds=15 quick=0 docs=0
-scenes=(teapot test1 test2 test3 test4)
+scenes=(teapot trianglemesh both concentric clumped)
 parts=()
 while [ $# -gt 0 ]; do
     case $1 in
@@ -92,8 +92,8 @@ run_large() {
     local camera
     [ $quick -eq 0 ] || return 0
     for camera in far near; do
-        measure "frame-test2x100-$camera" \
-            "$(scene "test2x100-$camera" test2 --copies=100 --camera=$camera)" \
+        measure "frame-octahedra1e5-$camera" \
+            "$(scene "octahedra1e5-$camera" octahedra --count=100000 --camera=$camera)" \
             --rounds=$few --parts=frame,check,rays,exactness
         measure "frame-spheres1e6-$camera" \
             "$(scene "spheres1e6-$camera" spheres --count=1000000 --camera=$camera)" \

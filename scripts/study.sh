@@ -10,8 +10,8 @@ usage: scripts/study.sh [flag]... [scene]...
   --res=W,H   size of the pictures (480,270)
   --out=DIR   where the results go (results/ in the project)
   -h          this list
-Scenes are names in testfiles/ (test1 test2 test3 test4 teapot). Leaves study-SCENE.json and
-study-SCENE.txt, and study-SCENE.png where matplotlib is installed.
+Scenes are names in testfiles/ (trianglemesh both concentric clumped teapot). Leaves
+study-SCENE.json and study-SCENE.txt, and study-SCENE.png where matplotlib is installed.
 TEXT
 }
 
@@ -40,7 +40,7 @@ done
 [[ $rep =~ ^[1-9][0-9]{0,5}$ ]] || fail "--rep=$rep: must be a whole number from 1 on"
 [[ $resolution =~ ^[0-9]+,[0-9]+$ ]] || fail "--res=$resolution: must be W,H"
 [ -n "$out" ] || fail "--out needs a folder"
-[ ${#scenes[@]} -gt 0 ] || scenes=(test1 test2 test3 test4 teapot)
+[ ${#scenes[@]} -gt 0 ] || scenes=(trianglemesh both concentric clumped teapot)
 
 nuvo_install "${nuvo_packages[@]}"
 nuvo_build release nuvo

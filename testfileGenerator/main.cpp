@@ -27,12 +27,10 @@ constexpr std::string_view kUsage =
     "       testfile_generator --list                          the scenes\n"
     "       testfile_generator -h                              this text\n"
     "  --seed=N           a whole number below 2^64 (2); the same seed gives the same bytes\n"
-    "  --camera=far|near  teapot, test1 ... test4, octahedra, spheres: where the scene fits the\n"
+    "  --camera=far|near  teapot, tests 1 to 4, octahedra, spheres: where the scene fits the\n"
     "                     picture's height, or at 0.3 of that distance\n"
-    "  --copies=N         test2: N times (1 to 1000) as many shapes, as densely\n"
     "  --count=N          octahedra, spheres: how many (1 to 10,000,000)\n";
 
-constexpr int kMaxCopies = 1000;
 constexpr int kMaxCount = 10'000'000;
 
 /// The command line is wrong: the text says how.
@@ -83,14 +81,11 @@ CameraPlace parse_camera(std::string_view text) {
 bool parse_variation(std::string_view argument, Variation& variation) {
     constexpr std::string_view kSeed = "--seed=";
     constexpr std::string_view kCamera = "--camera=";
-    constexpr std::string_view kCopies = "--copies=";
     constexpr std::string_view kCount = "--count=";
     if (argument.starts_with(kSeed)) {
         variation.seed = parse_seed(argument.substr(kSeed.size()));
     } else if (argument.starts_with(kCamera)) {
         variation.camera = parse_camera(argument.substr(kCamera.size()));
-    } else if (argument.starts_with(kCopies)) {
-        variation.copies = parse_number(kCopies, argument.substr(kCopies.size()), kMaxCopies);
     } else if (argument.starts_with(kCount)) {
         variation.count = parse_number(kCount, argument.substr(kCount.size()), kMaxCount);
     } else {
@@ -103,7 +98,6 @@ bool parse_variation(std::string_view argument, Variation& variation) {
 void check_variation(const Variation& variation, const std::string& name, const Takes& takes) {
     if (variation.camera != CameraPlace::kOwn && !takes.camera)
         throw UsageError(name + " takes no --camera");
-    if (variation.copies != 1 && !takes.copies) throw UsageError(name + " takes no --copies");
     if (variation.count != 0 && !takes.count) throw UsageError(name + " takes no --count");
     if (variation.count == 0 && takes.count) throw UsageError(name + " needs --count=N");
 }

@@ -23,27 +23,44 @@ std::string shape(std::string_view appearance_text, std::string_view geometry_te
 
 constexpr std::string_view kIndent = "        ";
 
+/// Figures 19 and 20: one octahedron, seen from the thesis' usual place.
+std::string one_octahedron(std::string_view name, std::string_view description, Shading shading) {
+    std::string out = scene_head(name, description);
+    out += "    <Viewpoint position='0 0 10'/>\n" + sky_and_no_headlight();
+    out += "    <DirectionalLight direction='-0.3 -0.3 -1'/>\n";
+    out += shape(appearance("diffuseColor='0.8 0.25 0.2'", "", kIndent),
+                 triangle_set(octahedron(3), "", shading, kIndent));
+    return out + scene_foot();
+}
+
 }  // namespace
+
+std::string figure_19(const Variation&) {
+    return one_octahedron("figure19", "Thesis figure 19: face normals", Shading::kFlat);
+}
+
+std::string figure_20(const Variation&) {
+    return one_octahedron("figure20", "Thesis figure 20: vertex normals", Shading::kSmooth);
+}
 
 std::string icosphere_scene(const Variation&) {
     // The camera of the thesis' validation tests sees 4.14 up and down at the origin: spheres of
     // this radius at these distances fill the picture and leave the light in the middle free.
     constexpr double kRadius = 1.6;
     constexpr double kOffset = 2;
-    constexpr int kSubdivisions = 3;
-    // The standard's default specularColor is black, with which shininess shows nothing.
-    constexpr std::string_view kSpecular = "' specularColor='0.8 0.8 0.8' shininess='";
+    constexpr int kSubdivisions = 1;  // 80 triangles, what Blender makes unasked
+    // The standard's default specularColor is black, with which shininess shows nothing; the
+    // published program's is white.
+    constexpr std::string_view kFields = "diffuseColor='1 0 0' specularColor='1 1 1' shininess='";
 
     struct Ball {
         Point position;
-        std::string_view color;
         std::string_view shininess;
     };
-    // Colours repeat from left to right, so that only the shininess differs.
-    constexpr std::array<Ball, 4> kBalls{{{{-kOffset, kOffset, 0}, "0.8 0.25 0.2", "1"},
-                                          {{kOffset, kOffset, 0}, "0.8 0.25 0.2", "0.1"},
-                                          {{-kOffset, -kOffset, 0}, "0.2 0.45 0.8", "1"},
-                                          {{kOffset, -kOffset, 0}, "0.2 0.45 0.8", "0.1"}}};
+    constexpr std::array<Ball, 4> kBalls{{{{-kOffset, kOffset, 0}, "1"},
+                                          {{kOffset, kOffset, 0}, "0.1"},
+                                          {{-kOffset, -kOffset, 0}, "1"},
+                                          {{kOffset, -kOffset, 0}, "0.1"}}};
 
     std::string out = scene_head(
         "icosphere", "Four icospheres around a point light; shininess 1 on the left, 0.1 right");
@@ -51,11 +68,10 @@ std::string icosphere_scene(const Variation&) {
     out += "    <PointLight location='0 0 0'/>\n";
     bool is_first = true;
     for (const Ball& ball : kBalls) {
-        const std::string fields = "diffuseColor='" + std::string(ball.color) +
-                                   std::string(kSpecular) + std::string(ball.shininess) + "'";
+        const std::string fields = std::string(kFields) + std::string(ball.shininess) + "'";
         const std::string geometry =
-            is_first ? triangle_set(icosphere(kRadius, kSubdivisions), "Icosphere",
-                                    Shading::kSmooth, kIndent)
+            is_first ? triangle_set(icosphere(kRadius, kSubdivisions), "Icosphere", Shading::kFlat,
+                                    kIndent)
                      : std::string(kIndent) + "<IndexedTriangleSet USE='Icosphere'/>\n";
         out += placed(ball.position, shape(appearance(fields, "", kIndent), geometry));
         is_first = false;
@@ -63,7 +79,7 @@ std::string icosphere_scene(const Variation&) {
     return out + scene_foot();
 }
 
-std::string trianglemesh_scene(const Variation&) {
+std::string showcase_scene(const Variation&) {
     const Mesh plate{{{-5, 0, -4.2}, {-5, 0, 2.8}, {5, 0, 2.8}, {5, 0, -4.2}},
                      {{0, 1, 2}, {0, 2, 3}}};
     struct Item {
@@ -91,7 +107,7 @@ std::string trianglemesh_scene(const Variation&) {
          Shading::kFlat},
     }};
     std::string out =
-        scene_head("trianglemesh", "A faceted ball, a smooth ball and an octahedron on a plate");
+        scene_head("showcase", "A faceted ball, a smooth ball and an octahedron on a plate");
     out += "    <Viewpoint position='0 4.4 8.7' orientation='1 0 0 -0.385'/>\n";
     out += sky_and_no_headlight();
     // The sun, a lamp, and a weak light along the view that keeps the shadows of both from black.

@@ -7,11 +7,19 @@ namespace nuvo::generator {
 namespace {
 
 constexpr Takes kCamera{.camera = true};
-constexpr Takes kCameraAndCopies{.camera = true, .copies = true};
 constexpr Takes kCameraAndCount{.camera = true, .count = true};
 
 constexpr std::array kScenes{
-    Scene{"trianglemesh", "the default file: three triangle meshes on a plate", trianglemesh_scene},
+    Scene{"trianglemesh", "thesis test 1, the default file: 728 octahedra on a grid",
+          trianglemesh_scene, kCamera},
+    Scene{"both", "thesis test 2: 1,000 octahedra at random", both_scene, kCamera},
+    Scene{"concentric", "thesis test 3: 5,985 spheres on five shells", concentric_scene, kCamera},
+    Scene{"clumped", "thesis test 4: 3,200 octahedra in 64 clumps", clumped_scene, kCamera},
+    Scene{"teapot", "thesis base test: the Utah teapot, one mesh", teapot_scene, kCamera},
+    Scene{"figure19", "thesis figure 19: an octahedron with face normals", figure_19},
+    Scene{"figure20", "thesis figure 20: an octahedron with vertex normals", figure_20},
+    Scene{"figure22", "thesis figure 22: four spheres, to be seen with and without a bias",
+          figure_22},
     Scene{"appendixE", "thesis appendix E, figure 24: sphere, directional light", appendix_e},
     Scene{"figure25", "thesis figure 25: the sphere under a default spot light", figure_25},
     Scene{"appendixF", "thesis appendix F, figure 26: a narrow spot light", appendix_f},
@@ -20,11 +28,7 @@ constexpr std::array kScenes{
     Scene{"figure29", "thesis figure 29: four spheres, blue light, field of view 0.9", figure_29},
     Scene{"appendixG", "thesis appendix G, figure 30: four spheres, grey light", appendix_g},
     Scene{"icosphere", "thesis figure 31: four icospheres, two shininesses", icosphere_scene},
-    Scene{"teapot", "thesis base test: the Utah teapot, one mesh", teapot_scene, kCamera},
-    Scene{"test1", "thesis test 1: 728 octahedra on a grid", test_1, kCamera},
-    Scene{"test2", "thesis test 2: 1,000 octahedra at random", test_2, kCameraAndCopies},
-    Scene{"test3", "thesis test 3: 5,985 spheres on five shells", test_3, kCamera},
-    Scene{"test4", "thesis test 4: 3,200 octahedra in 64 clumps", test_4, kCamera},
+    Scene{"showcase", "three triangle meshes on a plate", showcase_scene},
     Scene{"octahedra", "any number (--count=N) of octahedra like test 2's, one mesh",
           many_octahedra, kCameraAndCount},
     Scene{"spheres", "any number (--count=N) of spheres at random", many_spheres, kCameraAndCount},

@@ -7,7 +7,7 @@
 
 namespace nuvo::generator {
 
-/// The seed of the files in testfiles/ (README.md says why it is this one).
+/// The seed of the scenes for measuring, unless another is asked for.
 inline constexpr std::uint64_t kDefaultSeed = 2;
 
 /// Where the camera of an octree test stands.
@@ -21,14 +21,12 @@ enum class CameraPlace {
 struct Variation {
     std::uint64_t seed = kDefaultSeed;
     CameraPlace camera = CameraPlace::kOwn;
-    int copies = 1;  ///< times as many shapes, as densely: the space grows
-    int count = 0;   ///< shapes of a scene that has no number of its own
+    int count = 0;  ///< shapes of a scene that has no number of its own
 };
 
 /// The options that a scene takes beside the seed.
 struct Takes {
     bool camera = false;
-    bool copies = false;
     bool count = false;  ///< needs it, and is no file of testfiles/
 };
 
@@ -53,16 +51,21 @@ std::string figure_27(const Variation& variation);
 std::string figure_28(const Variation& variation);
 std::string figure_29(const Variation& variation);
 
-// Scenes of triangle meshes (section 5.6.4, and the program's default file).
+// Figures that the thesis shows without a listing.
+std::string figure_19(const Variation& variation);
+std::string figure_20(const Variation& variation);
+std::string figure_22(const Variation& variation);
 std::string icosphere_scene(const Variation& variation);
-std::string trianglemesh_scene(const Variation& variation);
 
-// The scenes of the octree tests (section 5.7.3).
+// The scenes of the octree tests (section 5.7.3): the base test and tests 1 to 4.
 std::string teapot_scene(const Variation& variation);
-std::string test_1(const Variation& variation);
-std::string test_2(const Variation& variation);
-std::string test_3(const Variation& variation);
-std::string test_4(const Variation& variation);
+std::string trianglemesh_scene(const Variation& variation);
+std::string both_scene(const Variation& variation);
+std::string concentric_scene(const Variation& variation);
+std::string clumped_scene(const Variation& variation);
+
+// A picture for the README.
+std::string showcase_scene(const Variation& variation);
 
 // Scenes of any size, for measuring.
 std::string many_octahedra(const Variation& variation);

@@ -29,11 +29,9 @@ constexpr std::string_view kPatchText =
 // no area and are left out.
 constexpr int kSteps = 20;
 
-// Distance of the camera from the front of the bounding box, on the axis through its middle, 45
-// degrees. At 1920 x 1080 the rays through 762 x 374 = 284,988 pixels enter the box: both counts
-// are even as the picture is symmetric, and no other pair of this shape is nearer to the 284,970
-// that follow from the thesis' counts.
-constexpr double kCameraDistance = 11;
+// The thesis shows it from above (figure 32). Height of the camera over the top of the bounding
+// box.
+constexpr double kCameraHeight = 8;
 
 // All control points have at most five decimals, so that this makes them whole numbers.
 constexpr double kUnitsPerLength = 100000;
@@ -132,18 +130,22 @@ std::string teapot_scene(const Variation& variation) {
     }
     const Point middle{six_decimals((low.x + high.x) / 2), six_decimals((low.y + high.y) / 2),
                        six_decimals((low.z + high.z) / 2)};
+    const bool from_above = variation.camera == CameraPlace::kOwn;
     const double fitting = fitting_distance((high.y - low.y) / 2);
-    const double distance = variation.camera == CameraPlace::kOwn
-                                ? kCameraDistance
-                                : six_decimals(camera_fraction(variation.camera, 0) * fitting);
+    const double distance = six_decimals(camera_fraction(variation.camera, 0) * fitting);
     std::string out = scene_head(
         "teapot", "The Utah teapot (Newell): 32 patches at 20 x 20, 25,440 triangles in one mesh");
-    out += "    <Viewpoint position='" + triple({middle.x, middle.y, high.z + distance}) +
-           "' fieldOfView='0.7853981633974483'/>\n";
+    out += from_above
+               ? "    <Viewpoint position='" +
+                     triple({middle.x, high.y + kCameraHeight, middle.z}) +
+                     "' orientation='1 0 0 -1.5707963267948966' fieldOfView='0.9'/>\n"
+               : "    <Viewpoint position='" + triple({middle.x, middle.y, high.z + distance}) +
+                     "' fieldOfView='0.7853981633974483'/>\n";
     out += sky_and_no_headlight();
     // In the middle of the shapes like in the other tests; here that is inside the pot.
     out += "    <PointLight location='" + triple(middle) + "'/>\n";
-    out += "    <DirectionalLight direction='0 0 -1'/>\n";
+    out += std::string("    <DirectionalLight direction='") + (from_above ? "0 -1 0" : "0 0 -1") +
+           "'/>\n";
     out += "    <Shape>\n" + appearance("diffuseColor='0.75 0.62 0.5'", "", "      ");
     out += triangle_set(mesh, "", Shading::kSmooth, "      ") + "    </Shape>\n";
     return out + scene_foot();

@@ -107,6 +107,14 @@ std::string figure_25(const Variation&) {
                     "cutOffAngle='0.3' color='1 1\n    1' beamWidth='0.1' />", "color='1 1 1' />");
 }
 
+std::string figure_22(const Variation&) {
+    const std::string text = replaced(std::string(kAppendixG),
+                                      "SpotLight direction='0 0 -1' location='0 0 10' "
+                                      "cutOffAngle='0.45'\n    color='0.5 0.5 0.5' beamWidth='0.3'",
+                                      "DirectionalLight direction='-1 -1 -1'");
+    return text;
+}
+
 std::string figure_27(const Variation&) { return four_spheres("1 0 0", "0.7"); }
 
 std::string figure_28(const Variation&) { return four_spheres("0 1 0", "0.8"); }

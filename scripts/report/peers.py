@@ -14,13 +14,14 @@ import re
 import statistics
 import sys
 
-SCENES = ("teapot", "test1", "test2", "test3", "test4", "test2x100", "spheres1e6")
-TITLES = {"teapot": "teapot, 25,440 triangles", "test1": "test 1, 5,824 triangles",
-          "test2": "test 2, 8,000 triangles", "test3": "test 3, 5,985 spheres",
-          "test4": "test 4, 25,600 triangles", "test2x100": "test 2 x 100, 800,000 triangles",
-          "spheres1e6": "1,000,000 spheres"}
+SCENES = ("teapot", "trianglemesh", "both", "concentric", "clumped", "octahedra1e5", "spheres1e6")
+TITLES = {"teapot": "teapot, 25,440 triangles", "trianglemesh": "test 1, 5,824 triangles",
+          "both": "test 2, 8,000 triangles", "concentric": "test 3, 5,985 spheres",
+          "clumped": "test 4, 25,600 triangles",
+          "octahedra1e5": "100,000 octahedra, 800,000 triangles", "spheres1e6": "1,000,000 spheres"}
 # Thesis 5.8: seconds of a frame, generation included, non-uniform octree, i5-2500K.
-PUBLISHED = {"teapot": 213.912, "test1": 9.899, "test2": 12.533, "test3": 8.382, "test4": 14.386}
+PUBLISHED = {"teapot": 213.912, "trianglemesh": 9.899, "both": 12.533, "concentric": 8.382,
+             "clumped": 14.386}
 INSTRUCTION_SETS = ("avx512", "avx2", "sse4.2", "sse2")
 RESAMPLES = 2000
 

@@ -18,21 +18,22 @@ TYPES = ("uniform", "nonuniform")
 PUBLISHED = {
     "teapot": {"uniform": (1, 1, 529548, 284970, 213.763),
                "nonuniform": (1, 1, 529548, 284970, 213.912)},
-    "test1": {"uniform": (9, 8653, 21843910, 27018572, 10.379),
+    "trianglemesh": {"uniform": (9, 8653, 21843910, 27018572, 10.379),
               "nonuniform": (6, 5552, 21789021, 26713679, 9.899)},
-    "test2": {"uniform": (9, 9381, 17183358, 46117742, 13.850),
+    "both": {"uniform": (9, 9381, 17183358, 46117742, 13.850),
               "nonuniform": (8, 7064, 11235896, 45362845, 12.533)},
-    "test3": {"uniform": (8, 9178, 33225320, 25603151, 8.607),
+    "concentric": {"uniform": (8, 9178, 33225320, 25603151, 8.607),
               "nonuniform": (8, 8422, 24876977, 25089438, 8.382)},
-    "test4": {"uniform": (9, 22807, 5954439, 23818331, 21.539),
+    "clumped": {"uniform": (9, 22807, 5954439, 23818331, 21.539),
               "nonuniform": (9, 15401, 6190599, 21231578, 14.386)},
 }
 PUBLISHED_RAYS = 1920 * 1080
-PUBLISHED_SHAPES = {"teapot": 1, "test1": 728, "test2": 1000, "test3": 5985, "test4": 3200}
+PUBLISHED_SHAPES = {"teapot": 1, "trianglemesh": 728, "both": 1000, "concentric": 5985,
+                    "clumped": 3200}
 
-TITLES = {"teapot": "Base test: Utah teapot", "test1": "Test 1: uniform diamonds",
-          "test2": "Test 2: random diamonds", "test3": "Test 3: concentric spheres",
-          "test4": "Test 4: clumped diamonds"}
+TITLES = {"teapot": "Base test: Utah teapot", "trianglemesh": "Test 1: uniform diamonds",
+          "both": "Test 2: random diamonds", "concentric": "Test 3: concentric spheres",
+          "clumped": "Test 4: clumped diamonds"}
 SETTINGS = {
     "thesis-12": "thesis profile, a diamond counts as 12 (--profile=thesis --costs=thesis:12)",
     "thesis-8": "thesis profile, a diamond counts as its 8 triangles (--profile=thesis "

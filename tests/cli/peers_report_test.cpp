@@ -72,7 +72,7 @@ nlohmann::json result() {
 
 TEST_F(PeersReport, SaysHowManyTimesAsFastAndPutsItIntoTheDocument) {
     fs::create_directories(folder_ / "results/raw");
-    put("results/raw/frame-test1-far.json", result().dump());
+    put("results/raw/frame-trianglemesh-far.json", result().dump());
     put("doc.md", "before\n<!-- table frames -->\nold\n<!-- end -->\nafter\n");
     ASSERT_EQ(report("results --type=uniform --docs doc.md"), 0) << said();
     const std::string doc = content("doc.md");
@@ -89,7 +89,7 @@ TEST_F(PeersReport, SaysHowManyTimesAsFastAndPutsItIntoTheDocument) {
     EXPECT_NE(said().find("| far | 9.0 | 7.0 | 6.0 | 0.0 | 5.5 | 3.3 | 2.2 |"), std::string::npos)
         << said();
     const auto merged = nlohmann::json::parse(content("results/peers.json"));
-    EXPECT_EQ(merged["results"]["frame-test1-far"], result());
+    EXPECT_EQ(merged["results"]["frame-trianglemesh-far"], result());
 }
 
 TEST_F(PeersReport, ToleratesWhatWasNotMeasured) {
@@ -97,11 +97,11 @@ TEST_F(PeersReport, ToleratesWhatWasNotMeasured) {
     nlohmann::json only_survey = result();
     only_survey.erase("ours");
     only_survey.erase("embree");
-    put("results/raw/frame-test2-near.json", only_survey.dump());
+    put("results/raw/frame-both-near.json", only_survey.dump());
     ASSERT_EQ(report("results"), 0) << said();
     EXPECT_NE(said().find("## frames\n\nNot measured."), std::string::npos) << said();
     EXPECT_NE(said().find("| test 2, 8,000 triangles | near | 8.5 |"), std::string::npos) << said();
-    fs::remove(folder_ / "results/raw/frame-test2-near.json");
+    fs::remove(folder_ / "results/raw/frame-both-near.json");
     EXPECT_EQ(report("results"), 1);
     EXPECT_NE(said().find("no results"), std::string::npos) << said();
 }

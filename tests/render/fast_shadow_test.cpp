@@ -142,22 +142,21 @@ TEST_P(FastShadows, ReachThePixelsThatTheExactProfileLights) {
     expect_exact(x3d::read_file(folder / GetParam()), {120, 68}, GetParam());
 }
 
-INSTANTIATE_TEST_SUITE_P(Files, FastShadows,
-                         ::testing::Values("test1.x3d", "test2.x3d", "test3.x3d", "test4.x3d",
-                                           "teapot.x3d", "icosphere.x3d", "appendixE.x3d",
-                                           "figure28.x3d", "hard/camera-on-surface.x3d",
-                                           "hard/coincident-surfaces.x3d", "hard/contact-gaps.x3d",
-                                           "hard/grazing-light.x3d", "hard/light-on-surface.x3d",
-                                           "hard/mirrored-and-sheared.x3d", "hard/moved-by-1e6.x3d",
-                                           "hard/planet-and-ants.x3d", "hard/scale-1e-15.x3d",
-                                           "hard/scale-1e15.x3d", "hard/slivers.x3d",
-                                           "hard/terminator.x3d"),
-                         [](const auto& file) {
-                             std::string name = file.param.substr(0, file.param.size() - 4);
-                             for (char& c : name)
-                                 if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
-                             return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Files, FastShadows,
+    ::testing::Values("trianglemesh.x3d", "both.x3d", "concentric.x3d", "clumped.x3d", "teapot.x3d",
+                      "icosphere.x3d", "appendixE.x3d", "figure28.x3d",
+                      "hard/camera-on-surface.x3d", "hard/coincident-surfaces.x3d",
+                      "hard/contact-gaps.x3d", "hard/grazing-light.x3d",
+                      "hard/light-on-surface.x3d", "hard/mirrored-and-sheared.x3d",
+                      "hard/moved-by-1e6.x3d", "hard/planet-and-ants.x3d", "hard/scale-1e-15.x3d",
+                      "hard/scale-1e15.x3d", "hard/slivers.x3d", "hard/terminator.x3d"),
+    [](const auto& file) {
+        std::string name = file.param.substr(0, file.param.size() - 4);
+        for (char& c : name)
+            if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
+        return name;
+    });
 
 /// A light of each kind of difficulty: axis-parallel, skew, among the objects, far away, on a
 /// corner, in the plane of a face.
