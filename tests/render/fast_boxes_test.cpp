@@ -7,7 +7,7 @@
 #include "fast/primary/camera_tables.h"
 #include "fast/scene/slot_order.h"
 #include "fast/simd/dispatch.h"
-#include "fast/tile/referee.h"
+#include "fast/tile/exact_fallback.h"
 #include "fast_cases.h"
 
 // Pixel boxes against the exact predicates: each pixel and primitive of small pictures is asked
@@ -33,7 +33,7 @@ Findings compare(const Scene& scene, InstructionSet isa) {
     const FastScene fast(scene, primitives, OctreeType::kUniform, 1);
     const CameraRays camera(scene.camera, kSize, fast.frame());
     const CameraTables tables(fast, camera, isa);
-    const Referee referee(fast, camera);
+    const ExactFallback fallback(fast, camera);
     std::vector<const PixelBox*> by_slot(fast.slot_end());
     for (const PixelBox& box : tables.boxes) by_slot.at(box.slot) = &box;
     Findings found;
@@ -44,7 +44,7 @@ Findings compare(const Scene& scene, InstructionSet isa) {
             for (int x = 0; x < kSize.width; ++x) {
                 const bool boxed = within(box->columns, x) && within(box->rows, y);
                 if (boxed) ++found.boxed;
-                const auto hit = referee.nearer(x, y, slot, kNoSlot);
+                const auto hit = fallback.nearer(x, y, slot, kNoSlot);
                 if (!hit) continue;
                 ++found.hits;
                 if (!boxed || hit->low > box->nearest) ++found.outside;

@@ -24,7 +24,7 @@ constexpr Resolution kSize{150, 91};  // the last tiles of rows and columns are 
 
 struct Shaded {
     int wrong = 0;   // pixels that differ from the exact profile's
-    int redone = 0;  // pixels that the referee decided
+    int redone = 0;  // pixels that the fallback decided
 };
 
 class ShadedPicture {
@@ -35,7 +35,7 @@ class ShadedPicture {
           primitives_(flatten(scene, LeafContent::kPrimitives)),
           fast_(scene, primitives_, OctreeType::kUniform, 1),
           camera_(scene.camera, size, fast_.frame()),
-          referee_(fast_, camera_) {
+          fallback_(fast_, camera_) {
         const Octree tree = build_tree(scene, primitives_, exact_profile());
         expected_ = render(scene, primitives_, tree, exact_profile(), size);
         facts_ = render_facts(scene, primitives_, tree, exact_profile(), size);
@@ -43,7 +43,7 @@ class ShadedPicture {
 
     Shaded shade(InstructionSet isa, bool redo_exactly = true) {
         const CameraTables tables(fast_, camera_, isa);
-        PrimaryJob job{fast_, camera_, tables, referee_, true, {}};
+        PrimaryJob job{fast_, camera_, tables, fallback_, true, {}};
         const PrimaryStage primary(isa);
         ShadingStage stage(fast_, camera_, tables, isa, redo_exactly);
         Image image(size_.width, size_.height);
@@ -57,7 +57,7 @@ class ShadedPicture {
                 stage.surface(*tile);
                 for (std::size_t light = 0; light < scene_.lights.size(); ++light)
                     shine(stage, *tile, light);
-                result.redone += stage.finish(*tile, referee_, image);
+                result.redone += stage.finish(*tile, fallback_, image);
             }
         for (int y = 0; y < size_.height; ++y)
             for (int x = 0; x < size_.width; ++x)
@@ -90,7 +90,7 @@ class ShadedPicture {
     Primitives primitives_;
     FastScene fast_;
     CameraRays camera_;
-    Referee referee_;
+    ExactFallback fallback_;
     Image expected_;
     std::vector<PixelFacts> facts_;
 };
@@ -195,7 +195,7 @@ TEST(FastShading, ShowsGradientsOfSkyAndGroundExactly) {
 }
 
 // 0.1, 0.3, 0.5 are halfway between two bytes: ties go up.
-TEST(FastShading, RoundsTiesUpWithoutTheReferee) {
+TEST(FastShading, RoundsTiesUpWithoutTheFallback) {
     const Scene scene =
         scene_of("<Background skyColor='0.1 0.3 0.5'/>" +
                  shape("diffuseColor='0 0 0' emissiveColor='0.5 0.7 0.9'", "<Sphere radius='2'/>"));
@@ -279,7 +279,7 @@ TEST(FastShading, ShadesRandomScenesExactly) {
         expect_exact(scene_of(random_nodes(seed)), "seed " + std::to_string(seed));
 }
 
-TEST(FastShading, LeavesFewPixelsToTheReferee) {
+TEST(FastShading, LeavesFewPixelsToTheFallback) {
     const std::string sky = "<Background skyColor='0.9 0.7 0.9' groundColor='0.4 0.5 0.7'/>";
     const std::string lights =
         "<DirectionalLight direction='-1 -2 -1' global='true' intensity='0.5'/>"

@@ -34,7 +34,7 @@ class ShadowPicture {
           fast_(scene, primitives_, type, 1),
           camera_(scene.camera, size, fast_.frame()),
           triangles_(triangle_bounds(scene, primitives_)),
-          referee_(fast_, camera_),
+          fallback_(fast_, camera_),
           kernel_(scene, primitives_, triangles_, std::nullopt) {
         Profile profile = exact_profile();
         profile.walk = WalkChoice::kDescent;
@@ -66,7 +66,7 @@ class ShadowPicture {
             for (int lane = 0; lane < kTileLanes; ++lane)
                 if (surfaces[lane] && wants(*surfaces[lane], i))
                     wanted[lane / 16] |= static_cast<std::uint16_t>(1 << lane % 16);
-            stage.trace(*tile, i, wanted, referee_, reached);
+            stage.trace(*tile, i, wanted, fallback_, reached);
             for (int lane = 0; lane < kTileLanes; ++lane) {
                 EXPECT_FALSE((reached[lane / 16] & ~wanted[lane / 16]) >> lane % 16 & 1);
                 if (reached[lane / 16] >> lane % 16 & 1) lit[lane] |= std::uint64_t{1} << i;
@@ -121,7 +121,7 @@ class ShadowPicture {
     FastScene fast_;
     CameraRays camera_;
     Bounds3 triangles_;
-    Referee referee_;
+    ExactFallback fallback_;
     ExactKernelOf<SceneStore> kernel_;
     std::vector<PixelFacts> facts_;
 };

@@ -81,8 +81,8 @@ TEST_F(TriangleChunkTest, BringsEveryTriangleOnceInItsPlace) {
 TEST_F(TriangleChunkTest, BringsEveryRoundShapeOnce) {
     for (const int threads : {1, 3}) {
         std::vector<std::atomic<int>> met(fast_.slot_end());
-        for_each_round_part(fast_, threads, [&](RoundSpan rounds) {
-            for (const RoundShapeSlot& round : rounds) ++met[round.slot];
+        for_each_quadric_part(fast_, threads, [&](QuadricSpan quadrics) {
+            for (const QuadricSlot& quadric : quadrics) ++met[quadric.slot];
         });
         for (Slot slot = 0; slot < fast_.slot_end(); ++slot)
             ASSERT_EQ(met[slot], slot < fast_.triangle_end() ? 0 : 1);
@@ -115,23 +115,23 @@ TEST_F(TriangleChunkTest, TablesDoNotDependOnWhenAndByHowManyTheyAreFilled) {
             EXPECT_EQ(std::memcmp(shadow.planes(light), shadow_later.planes(light),
                                   fast_.triangle_end() * sizeof(ShadowPlanes)),
                       0);
+            EXPECT_TRUE(same_bytes(shadow.table(light).quadric_sides,
+                                   shadow_later.table(light).quadric_sides));
             EXPECT_TRUE(
-                same_bytes(shadow.table(light).round_sides, shadow_later.table(light).round_sides));
-            EXPECT_TRUE(
-                same_bytes(shading.lights[light].facing, shading_later.lights[light].facing));
+                same_bytes(shading.lights[light].cosines, shading_later.lights[light].cosines));
         }
     }
 }
 
 TEST_F(TriangleChunkTest, SidesOfALightAreKnownWhereItStandsWithinTheScene) {
     const ShadowTables tables(fast_, resolved(InstructionSet::kBest));
-    EXPECT_TRUE(tables.table(0).round_sides.empty());  // a direction is outside of all
+    EXPECT_TRUE(tables.table(0).quadric_sides.empty());  // a direction is outside of all
     const Point3& lamp = scene_.lights[1].location;
     for (Slot slot = fast_.triangle_end(); slot < fast_.slot_end(); ++slot) {
         const auto& sphere = std::get<Sphere>(scene_.objects[fast_.source(slot).object].shape);
         const double gap = length(sphere.center - lamp) - sphere.radius;
         if (std::fabs(gap) < 1e-3) continue;  // may be unknown
-        const auto& sides = tables.table(1).round_sides;
+        const auto& sides = tables.table(1).quadric_sides;
         const LightSide side =
             sides.empty() ? LightSide::kOutside : sides[slot - fast_.triangle_end()];
         EXPECT_EQ(side, gap > 0 ? LightSide::kOutside : LightSide::kInside);
@@ -141,8 +141,8 @@ TEST_F(TriangleChunkTest, SidesOfALightAreKnownWhereItStandsWithinTheScene) {
 TEST_F(TriangleChunkTest, ALightWithinASphereIsInsideOfIt) {
     scene_.lights[1].location = std::get<Sphere>(scene_.objects[3].shape).center;
     const ShadowTables tables(fast_, resolved(InstructionSet::kBest));
-    ASSERT_FALSE(tables.table(1).round_sides.empty());
-    EXPECT_EQ(tables.table(1).round_sides[0], LightSide::kInside);
+    ASSERT_FALSE(tables.table(1).quadric_sides.empty());
+    EXPECT_EQ(tables.table(1).quadric_sides[0], LightSide::kInside);
 }
 
 }  // namespace

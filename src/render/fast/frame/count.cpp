@@ -11,16 +11,16 @@
 namespace nuvo {
 namespace {
 
-std::uint64_t shadow_rays(const FastScene& scene, const Referee& referee, const Tile& tile) {
+std::uint64_t shadow_rays(const FastScene& scene, const ExactFallback& fallback, const Tile& tile) {
     const std::vector<Light>& lights = scene.scene().lights;
     std::uint64_t rays = 0;
     for (int lane = 0; lane < kTileLanes; ++lane) {
         if ((tile.hit[lane / kBlockLanes] >> lane % kBlockLanes & 1) == 0) continue;
-        referee.color(tile.x + lane_x(lane), tile.y + lane_y(lane), tile.slot[lane],
-                      [&](std::size_t light) {
-                          rays += lights[light].casts_shadow ? 1 : 0;
-                          return false;
-                      });
+        fallback.color(tile.x + lane_x(lane), tile.y + lane_y(lane), tile.slot[lane],
+                       [&](std::size_t light) {
+                           rays += lights[light].casts_shadow ? 1 : 0;
+                           return false;
+                       });
     }
     return rays;
 }
@@ -30,9 +30,9 @@ std::uint64_t shadow_rays(const FastScene& scene, const Referee& referee, const 
 RayCounts count_rays(const FastScene& scene, InstructionSet isa, Resolution resolution) {
     const CameraRays camera(scene.scene().camera, resolution, scene.frame());
     const CameraTables tables(scene, camera, isa);
-    const Referee referee(scene, camera);
+    const ExactFallback fallback(scene, camera);
     const auto job =
-        std::make_unique<PrimaryJob>(PrimaryJob{scene, camera, tables, referee, true, {}});
+        std::make_unique<PrimaryJob>(PrimaryJob{scene, camera, tables, fallback, true, {}});
     const PrimaryStage primary(isa);
     RayCounts counts;
     counts.primary_rays = std::uint64_t(resolution.width) * std::uint64_t(resolution.height);
@@ -40,7 +40,7 @@ RayCounts count_rays(const FastScene& scene, InstructionSet isa, Resolution reso
     for (tile.y = 0; tile.y < resolution.height; tile.y += kTileSide) {
         for (tile.x = 0; tile.x < resolution.width; tile.x += kTileSide) {
             primary.trace(*job, tile);
-            counts.shadow_rays += shadow_rays(scene, referee, tile);
+            counts.shadow_rays += shadow_rays(scene, fallback, tile);
         }
     }
     return counts;

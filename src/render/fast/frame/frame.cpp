@@ -68,8 +68,8 @@ class Frame::Worker {
   public:
     Worker(const FastScene& scene, const Tables& tables, const FastOptions& options)
         : scene_(scene),
-          referee_(scene, tables.rays),
-          job_{scene, tables.rays, *tables.camera, referee_, options.redo_exactly, {}},
+          fallback_(scene, tables.rays),
+          job_{scene, tables.rays, *tables.camera, fallback_, options.redo_exactly, {}},
           primary_(options.isa),
           shadow_(*tables.shadow, options.isa, options.redo_exactly),
           shading_(*tables.shading) {}
@@ -88,12 +88,12 @@ class Frame::Worker {
                 shading_.sample(tile_, light, wanted);
                 clock.add_to(spent.shading);
                 TileMask lit;
-                shadow_.trace(tile_, light, wanted, referee_, lit);
+                shadow_.trace(tile_, light, wanted, fallback_, lit);
                 clock.add_to(spent.shadow);
                 shading_.add(light, lit);
             }
         }
-        shading_.finish(tile_, referee_, image);
+        shading_.finish(tile_, fallback_, image);
         clock.add_to(spent.shading);
         if (times == nullptr) return;
         times->primary += spent.primary;
@@ -108,7 +108,7 @@ class Frame::Worker {
     }
 
     const FastScene& scene_;
-    Referee referee_;
+    ExactFallback fallback_;
     PrimaryJob job_;
     PrimaryStage primary_;
     ShadowStage shadow_;

@@ -59,16 +59,16 @@ void CameraTables::take(const TriangleChunk& chunk) {
                           chunk, isa_);
 }
 
-void CameraTables::take_rounds(RoundSpan rounds) {
+void CameraTables::take_quadrics(QuadricSpan quadrics) {
     const Point3 eye = scene_.scene().camera.position;
     const double scale = scene_.frame().scale;
     const double direction = CameraExtent(camera_).direction;
-    for (const RoundShapeSlot& round : rounds) {
-        if (const RoundShapeSlot* const soon = scene_.soon(round))
-            __builtin_prefetch(&spheres[soon->slot - scene_.triangle_end()], 1);
-        const Object& object = scene_.object(round.id);
+    for (const QuadricSlot& quadric : quadrics) {
+        if (const QuadricSlot* const prefetched = scene_.prefetched_after(quadric))
+            __builtin_prefetch(&spheres[prefetched->slot - scene_.triangle_end()], 1);
+        const Object& object = scene_.object(quadric.id);
         const Shape& shape = object.shape;
-        CameraSphere& out = spheres[round.slot - scene_.triangle_end()];
+        CameraSphere& out = spheres[quadric.slot - scene_.triangle_end()];
         if (const auto* sphere = std::get_if<Sphere>(&shape)) {
             out = make_sphere(eye, scale, sphere->center, sphere->radius, direction);
         } else {

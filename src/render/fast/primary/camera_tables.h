@@ -61,7 +61,7 @@ class CameraTables {
 
     /// For fill_tables(); by several threads at a time.
     void take(const TriangleChunk& chunk);
-    void take_rounds(RoundSpan rounds);
+    void take_quadrics(QuadricSpan quadrics);
     void finish();
 
     std::size_t memory_bytes() const {

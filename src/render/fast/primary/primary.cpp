@@ -9,7 +9,7 @@
 
 #include <hwy/cache_control.h>
 
-#include "fast/primary/box_sieve.h"
+#include "fast/primary/box_culling.h"
 #include "fast/primary/primary_lanes.h"
 #include "fast/primary/sphere_lanes.h"
 #include "fast/simd/lanes.h"
@@ -21,7 +21,7 @@
 // rasterizer tests them, in the order of the walk: coarse, against 16 blocks of pixels at once,
 // unless they show in a few blocks only; then fine, 16 pixels at once (Abrash 2009, "Rasterization
 // on Larrabee"). Each step asks for the memory that the next one reads. Whatever a float within its
-// bound leaves open, the referee decides at once.
+// bound leaves open, the fallback decides at once.
 
 HWY_BEFORE_NAMESPACE();
 namespace nuvo::HWY_NAMESPACE {
@@ -31,7 +31,7 @@ using Floats4 = Lanes<float, 4>;
 class PrimaryTracer {
   public:
     PrimaryTracer(PrimaryJob& job, Tile& tile)
-        : job_(job), tile_(tile), rays_(job.camera, tile), sieve_(tile) {
+        : job_(job), tile_(tile), rays_(job.camera, tile), culling_(tile) {
         clear();
     }
 
@@ -90,7 +90,7 @@ class PrimaryTracer {
     }
 
     HWY_INLINE void enqueue(const PixelBox& box) {
-        queue_[BoxSieve::place(waiting_)] = box;
+        queue_[BoxCulling::place(waiting_)] = box;
         waiting_ += job_.mailbox.seen(box.slot) ? 0 : 1;
         if (waiting_ == kBatch) step();
     }
@@ -99,8 +99,8 @@ class PrimaryTracer {
     HWY_NOINLINE void step() {
         std::size_t first = chosen_count_;
         if (waiting_ != 0) {
-            chosen_count_ += sieve_.choose(queue_, waiting_, block_near_, tile_near_,
-                                           chosen_ + first, blocks_ + first);
+            chosen_count_ += culling_.choose(queue_, waiting_, block_near_, tile_near_,
+                                             chosen_ + first, blocks_ + first);
             waiting_ = 0;
             for (std::size_t i = first; i < chosen_count_; ++i) prefetch(chosen_[i]);
             if (first == 0) return;
@@ -236,15 +236,15 @@ class PrimaryTracer {
         for (; bits != 0; bits &= bits - 1) {
             const int lane = b * kBlockLanes + std::countr_zero(bits);
             if (tile_.slot[lane] == slot) continue;
-            const auto nearest = job_.referee.nearer(tile_.x + lane_x(lane), tile_.y + lane_y(lane),
-                                                     slot, tile_.slot[lane]);
+            const auto nearest = job_.fallback.nearer(
+                tile_.x + lane_x(lane), tile_.y + lane_y(lane), slot, tile_.slot[lane]);
             if (!nearest) continue;
             tile_.slot[lane] = slot;
             tile_.near_low[lane] = nearest->low;
             tile_.near_high[lane] = nearest->high;
             for (int axis = 0; axis < 3; ++axis)
-                tile_.round_normal[axis][lane] = static_cast<float>(nearest->normal[axis]);
-            tile_.round_error[lane] = 2 * kFloatRoundoff;
+                tile_.quadric_normal[axis][lane] = static_cast<float>(nearest->normal[axis]);
+            tile_.quadric_error[lane] = 2 * kFloatRoundoff;
         }
     }
 
@@ -258,12 +258,12 @@ class PrimaryTracer {
         tile_near_ = lowest(Floats::load(block_near_));
     }
 
-    static constexpr std::size_t kBatch = BoxSieve::kBatch;
+    static constexpr std::size_t kBatch = BoxCulling::kBatch;
 
     PrimaryJob& job_;
     Tile& tile_;
     TileRays rays_;
-    BoxSieve sieve_;
+    BoxCulling culling_;
     alignas(64) float block_near_[kTileBlocks];  // the least near_low of a block
     float tile_near_ = 0;                        // the least of these
     std::uint32_t changed_ = 0;                  // blocks where they are out of date, too small

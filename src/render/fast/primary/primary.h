@@ -2,7 +2,7 @@
 
 #include "fast/primary/camera_tables.h"
 #include "fast/scene/mailbox.h"
-#include "fast/tile/referee.h"
+#include "fast/tile/exact_fallback.h"
 #include "fast/tile/tile.h"
 
 // Primary rays: the octree is walked once a tile, by the beam of all its rays; in a leaf each
@@ -15,7 +15,7 @@ struct PrimaryJob {
     const FastScene& scene;
     const CameraRays& camera;
     const CameraTables& tables;
-    const Referee& referee;
+    const ExactFallback& fallback;
     bool redo_exactly;
     Mailbox mailbox;
 };

@@ -10,17 +10,17 @@
 #define HWY_TARGET_INCLUDE "fast/rays/single_ray.cpp"
 #include <hwy/foreach_target.h>
 
-#include "fast/rays/flights.h"
+#include "fast/rays/interleaved_rays.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace nuvo::HWY_NAMESPACE {
 
 void walk_rays(const SingleRays& rays, std::span<const Ray> all, RayAnswer* answers) {
-    const auto flights = std::make_unique<Flights>(rays);
+    const auto interleaved = std::make_unique<InterleavedRays>(rays);
     std::array<Slot, kRayBatch> found;
     for (std::size_t first = 0; first < all.size(); first += kRayBatch) {
         const auto batch = all.subspan(first, std::min(kRayBatch, all.size() - first));
-        flights->run(batch, found.data());
+        interleaved->run(batch, found.data());
         rays.answer(batch, found.data(), answers + first);
     }
 }
@@ -111,7 +111,7 @@ void SingleRays::answer(std::span<const Ray> rays, const Slot* found, RayAnswer*
     finish();
 }
 
-Slot SingleRays::by_force(const Ray& ray) const {
+Slot SingleRays::brute_force(const Ray& ray) const {
     std::optional<Kernel::Hit> best;
     const ExactRay prepared = kernel_.prepare(ray);
     Slot nearest = kNoSlot;

@@ -8,15 +8,15 @@
 
 #include "exact_kernel.h"
 #include "fast/rays/local_ray.h"
-#include "fast/rays/ray_flight.h"
+#include "fast/rays/ray_state.h"
 #include "fast/rays/triangle_roots.h"
 #include "fast/rays/wide_octree.h"
 #include "fast/scene/fast_scene.h"
 #include "nuvo/render/fast.h"
 
-// Rays that have nothing in common, each on a way of its own: a step decides on 16 voxels or 16
-// primitives at once (flights.h), floats with proven bounds leave almost nothing open, and what
-// they do leave goes to the predicates of the serial tracer.
+// Rays that have nothing in common, each on its own: a step decides on 16 voxels or 16
+// primitives at once (interleaved_rays.h), floats with proven bounds leave almost nothing open, and
+// what they do leave goes to the predicates of the serial tracer.
 
 namespace nuvo {
 
@@ -47,7 +47,7 @@ class SingleRays {
     std::optional<RayCandidate> decide(const Ray& ray, const LocalRay& local,
                                        std::span<const RayCandidate> candidates) const;
     /// The nearest primitive among all; kNoSlot: none.
-    Slot by_force(const Ray& ray) const;
+    Slot brute_force(const Ray& ray) const;
     /// The answers to rays of which found[i] is known to be what ray i meets first.
     void answer(std::span<const Ray> rays, const Slot* found, RayAnswer* answers) const;
 

@@ -70,21 +70,21 @@ class LocalItemsMaker {
         const LocalTrianglesJob job{frame_, items_.triangles.data(), items_.boxes.data()};
         for_each_chunk(fast_, threads,
                        [&](const TriangleChunk& chunk) { make_local_triangles(job, chunk, isa); });
-        for_each_round_part(fast_, threads, [&](RoundSpan rounds) {
-            for (const RoundShapeSlot& round : rounds) {
-                fast_.soon(round);
-                put_round(round);
+        for_each_quadric_part(fast_, threads, [&](QuadricSpan quadrics) {
+            for (const QuadricSlot& quadric : quadrics) {
+                fast_.prefetched_after(quadric);
+                put_quadric(quadric);
             }
         });
         return std::move(items_);
     }
 
   private:
-    void put_round(const RoundShapeSlot& round) {
-        items_.boxes[round.slot] = local_box(frame_, fast_.primitives().item_boxes[round.id]);
-        if (round.slot >= fast_.sphere_end()) return;
-        const Sphere& sphere = std::get<Sphere>(fast_.object(round.id).shape);
-        items_.spheres[round.slot - fast_.triangle_end()] = {
+    void put_quadric(const QuadricSlot& quadric) {
+        items_.boxes[quadric.slot] = local_box(frame_, fast_.primitives().item_boxes[quadric.id]);
+        if (quadric.slot >= fast_.sphere_end()) return;
+        const Sphere& sphere = std::get<Sphere>(fast_.object(quadric.id).shape);
+        items_.spheres[quadric.slot - fast_.triangle_end()] = {
             Vec3<float>(frame_.local(sphere.center)),
             static_cast<float>(sphere.radius * frame_.scale)};
     }
@@ -160,9 +160,9 @@ void FastScene::order_slots(const Bounds3& box) {
             slots[id] = slot;
             ids_.push_back(id);
         }
-    rounds_.reserve(slot_end_ - triangle_end_);
+    quadrics_.reserve(slot_end_ - triangle_end_);
     for (PrimitiveId id = 0; id < slot_end_; ++id)
-        if (slots[id] >= triangle_end_) rounds_.push_back({id, slots[id]});
+        if (slots[id] >= triangle_end_) quadrics_.push_back({id, slots[id]});
     if (document_order) ids_ = {};
 }
 

@@ -31,11 +31,11 @@ using Slot = std::uint32_t;
 inline constexpr Slot kNoSlot = ~Slot{0};
 
 /// A sphere or ellipsoid.
-struct RoundShapeSlot {
+struct QuadricSlot {
     PrimitiveId id;
     Slot slot;
 };
-using RoundSpan = std::span<const RoundShapeSlot>;
+using QuadricSpan = std::span<const QuadricSlot>;
 
 /// The scene sorted by kind, with its octree in the local frame: all that does not depend on camera
 /// and lights.
@@ -64,15 +64,15 @@ class FastScene {
         return scene_.objects[primitives_.sources[id].object];
     }
     /// All spheres and ellipsoids in document order, in which the scene is read fastest.
-    RoundSpan rounds() const { return rounds_; }
-    /// One that comes soon after one of rounds(), if there is any; its object is asked for.
-    const RoundShapeSlot* soon(const RoundShapeSlot& round) const {
+    QuadricSpan quadrics() const { return quadrics_; }
+    /// One a few places after one of quadrics(), if there is any; its object is prefetched.
+    const QuadricSlot* prefetched_after(const QuadricSlot& quadric) const {
         constexpr std::ptrdiff_t kAhead = 12;
-        if (rounds_.data() + rounds_.size() - &round <= kAhead) return nullptr;
-        const RoundShapeSlot* const then = &round + kAhead;
-        const Object* const soon = &object(then->id);
-        __builtin_prefetch(soon);
-        __builtin_prefetch(reinterpret_cast<const char*>(soon + 1) - 1);
+        if (quadrics_.data() + quadrics_.size() - &quadric <= kAhead) return nullptr;
+        const QuadricSlot* const then = &quadric + kAhead;
+        const Object* const ahead = &object(then->id);
+        __builtin_prefetch(ahead);
+        __builtin_prefetch(reinterpret_cast<const char*>(ahead + 1) - 1);
         return then;
     }
     /// Corners rounded to nearest, by slot.
@@ -89,7 +89,7 @@ class FastScene {
     Slot sphere_end_ = 0;
     Slot slot_end_ = 0;
     std::vector<PrimitiveId> ids_;  // empty: the same order
-    BigVector<RoundShapeSlot> rounds_;
+    BigVector<QuadricSlot> quadrics_;
     BigVector<LocalTriangle> triangles_;
     CompactOctree octree_;
 };

@@ -8,7 +8,7 @@
 namespace nuvo {
 namespace {
 
-// Meshes are asked for by this many triangles before they are needed.
+// Meshes are prefetched by this many triangles ahead.
 constexpr Slot kAhead = 48;
 
 // The lists of a small mesh: those of a large one are longer, and read in about their order.
@@ -73,10 +73,10 @@ void for_each_chunk(const FastScene& scene, int threads,
     });
 }
 
-void for_each_round_part(const FastScene& scene, int threads,
-                         const std::function<void(RoundSpan)>& work) {
+void for_each_quadric_part(const FastScene& scene, int threads,
+                           const std::function<void(QuadricSpan)>& work) {
     constexpr std::size_t kStep = 256;
-    const RoundSpan all = scene.rounds();
+    const QuadricSpan all = scene.quadrics();
     for_each_part(threads, all.size(), [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; i += kStep)
             work(all.subspan(i, std::min(kStep, end - i)));

@@ -9,7 +9,7 @@
 
 // Corners lie behind an object, its mesh and the mesh's lists: several times as far away as the
 // numbers that are made of them. So they are fetched once for all tables, by chunks that stay in
-// the nearest cache, and asked for before they are needed.
+// the nearest cache, and prefetched.
 
 namespace nuvo {
 
@@ -50,22 +50,22 @@ struct TriangleChunk {
 void for_each_chunk(const FastScene& scene, int threads,
                     const std::function<void(const TriangleChunk&)>& work);
 
-/// Whether a table's constructor fills what it holds for each triangle and round shape, or leaves
+/// Whether a table's constructor fills what it holds for each triangle and quadric, or leaves
 /// that to fill_tables().
 enum class TableFilling : std::uint8_t { kNow, kLater };
 
-/// Calls work(some) for all round shapes, so few at a time that their objects are still at hand
+/// Calls work(some) for all quadrics, so few at a time that their objects are still at hand
 /// when the next table asks.
-void for_each_round_part(const FastScene& scene, int threads,
-                         const std::function<void(RoundSpan)>& work);
+void for_each_quadric_part(const FastScene& scene, int threads,
+                           const std::function<void(QuadricSpan)>& work);
 
-/// Calls take(chunk) of each table for all triangles, take_rounds(some) for all round shapes, and
+/// Calls take(chunk) of each table for all triangles, take_quadrics(some) for all quadrics, and
 /// finish().
 template <typename... Tables>
 void fill_tables(const FastScene& scene, int threads, Tables&... tables) {
     for_each_chunk(scene, threads, [&](const TriangleChunk& chunk) { (tables.take(chunk), ...); });
-    for_each_round_part(scene, threads,
-                        [&](RoundSpan rounds) { (tables.take_rounds(rounds), ...); });
+    for_each_quadric_part(scene, threads,
+                          [&](QuadricSpan quadrics) { (tables.take_quadrics(quadrics), ...); });
     (tables.finish(), ...);
 }
 

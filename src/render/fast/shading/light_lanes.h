@@ -12,9 +12,9 @@
 #include "fast/simd/lanes.h"
 #include "fast/simd/vector_math.h"
 
-// Geometry of one light at 16 points: way, attenuation, spot and specular lobe [eq. 38-44]. In the
-// comments u is 2^-24, and numbers of u count roundings to first order; each sum is rounded up by
-// enough for the second.
+// Geometry of one light at 16 points: direction, attenuation, spot and specular lobe [eq. 38-44].
+// In the comments u is 2^-24, and numbers of u count roundings to first order; each sum is rounded
+// up by enough for the second.
 
 HWY_BEFORE_NAMESPACE();
 namespace nuvo::HWY_NAMESPACE {
@@ -31,16 +31,16 @@ HWY_INLINE Floats small_error(const Floats& x) {
 }
 
 /// To a directional light: the same from everywhere.
-struct NoWay {
-    HWY_INLINE NoWay(const ShadingLight&, const Tile&, int) {}
-    HWY_INLINE Floats toward(const ShadingLight& light, int axis) const {
+struct NoToLight {
+    HWY_INLINE NoToLight(const ShadingLight&, const Tile&, int) {}
+    HWY_INLINE Floats unit(const ShadingLight& light, int axis) const {
         return Floats(light.toward[axis]);
     }
 };
 
 /// From points to a point or spot light.
-struct WayToLight {
-    HWY_INLINE WayToLight(const ShadingLight& light, const Tile& tile, int first) {
+struct ToLight {
+    HWY_INLINE ToLight(const ShadingLight& light, const Tile& tile, int first) {
         square = Floats(0.0F);
         for (int axis = 0; axis < 3; ++axis) {
             to[axis] = Floats(light.location[axis]) - Floats::load(tile.point[axis] + first);
@@ -53,7 +53,7 @@ struct WayToLight {
     }
 
     /// The unit vector to the light.
-    HWY_INLINE Floats toward(const ShadingLight&, int axis) const { return to[axis] * inverse; }
+    HWY_INLINE Floats unit(const ShadingLight&, int axis) const { return to[axis] * inverse; }
 
     Floats to[3];
     Floats square;
@@ -69,13 +69,13 @@ struct Factor {
 };
 
 /// [eq. 40, 41] The factor falls with the angle, so its ends are those of the angle's bounds.
-HWY_INLINE void weaken_by_cone(const ShadingLight& light, const WayToLight& way, Factor& factor) {
+HWY_INLINE void weaken_by_cone(const ShadingLight& light, const ToLight& toward, Factor& factor) {
     Floats cosine(0.0F);
     for (int axis = 0; axis < 3; ++axis)
-        cosine = mul_add(way.to[axis], Floats(-light.axis[axis]), cosine);
-    cosine = cosine * way.inverse;
+        cosine = mul_add(toward.to[axis], Floats(-light.axis[axis]), cosine);
+    cosine = cosine * toward.inverse;
     // 3 roundings of the product with a rounded axis, one more with the inverse.
-    const Floats error = way.relative + Floats(5.2F * kFloatRoundoff);
+    const Floats error = toward.relative + Floats(5.2F * kFloatRoundoff);
     const auto angle = [](const Floats& c)
                            HWY_ATTR { return arc_cosine(min(max(c, Floats(0.0F)), Floats(1.0F))); };
     // Roundings of angles up to pi / 2: the limits' and the differences'.
@@ -101,17 +101,17 @@ HWY_INLINE void weaken_by_cone(const ShadingLight& light, const WayToLight& way,
     factor.error = factor.error + half;
     factor.value = factor.value * middle;
     // NaN ends where nothing is known.
-    const RayMask known = way.relative < one;
+    const RayMask known = toward.relative < one;
     factor.error = select(known, factor.error, Floats(std::numeric_limits<float>::infinity()));
     factor.perhaps = factor.perhaps & (~known | (high > Floats(0.0F)));
 }
 
 /// Radius, attenuation and cone.
-HWY_INLINE Factor strength(const ShadingLight& light, const WayToLight& way) {
+HWY_INLINE Factor strength(const ShadingLight& light, const ToLight& toward) {
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
     Factor factor{Floats(1.0F), Floats(0.0F), RayMask::from_bits(0xffff)};
-    const Floats distance = way.square * way.inverse;
-    const Floats relative = way.relative + Floats(2 * kFloatRoundoff);
+    const Floats distance = toward.square * toward.inverse;
+    const Floats relative = toward.relative + Floats(2 * kFloatRoundoff);
     if (light.ranged) {
         const Floats slack = distance * (relative + Floats(2 * kFloatRoundoff));
         factor.perhaps = ~(distance - slack > Floats(light.radius));
@@ -127,7 +127,7 @@ HWY_INLINE Factor strength(const ShadingLight& light, const WayToLight& way) {
         const Floats error = mul_add(relative, Floats(2.0F), Floats(8 * kFloatRoundoff));
         factor.error = mul_add(factor.value * Floats(1.2F), error, factor.error);
     }
-    if (light.spot) weaken_by_cone(light, way, factor);
+    if (light.spot) weaken_by_cone(light, toward, factor);
     return factor;
 }
 
@@ -140,8 +140,8 @@ struct Lobe {
 
 /// n.h of unit vectors is 1 - z, z = |n - h|^2 / 2: near the highlight's middle, where the power is
 /// steep, the error of z is that of n - h times |n - h|, many times less than that of a product.
-/// `directions_error` is the sum of those of to_light and to_viewer.
-HWY_INLINE Lobe specular_lobe(const Floats (&normal)[3], const Floats (&to_light)[3],
+/// `directions_error` is the sum of those of toward and to_viewer.
+HWY_INLINE Lobe specular_lobe(const Floats (&normal)[3], const Floats (&toward)[3],
                               const Floats (&to_viewer)[3], const Floats& normal_error,
                               const Floats& directions_error, const Floats& exponent) {
     constexpr float kBelowOne = 1 - kFloatRoundoff;
@@ -150,7 +150,7 @@ HWY_INLINE Lobe specular_lobe(const Floats (&normal)[3], const Floats (&to_light
     Floats sum[3];
     Floats square(0.0F);
     for (int axis = 0; axis < 3; ++axis) {
-        sum[axis] = to_light[axis] + to_viewer[axis];
+        sum[axis] = toward[axis] + to_viewer[axis];
         square = mul_add(sum[axis], sum[axis], square);
     }
     const Floats inverse = inverse_sqrt(square);

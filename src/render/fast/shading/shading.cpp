@@ -36,13 +36,13 @@ void ShadingStage::add(std::size_t light, const TileMask& lit) {
     kernels_.add(*tables_, light, lit, scratch_);
 }
 
-int ShadingStage::finish(const Tile& tile, const Referee& referee, Image& image) {
+int ShadingStage::finish(const Tile& tile, const ExactFallback& fallback, Image& image) {
     TileMask uncertain;
     kernels_.finish(*tables_, tile, scratch_, image, uncertain);
-    return redo_exactly_ ? redo(tile, uncertain, referee, image) : 0;
+    return redo_exactly_ ? redo(tile, uncertain, fallback, image) : 0;
 }
 
-int ShadingStage::redo(const Tile& tile, const TileMask& uncertain, const Referee& referee,
+int ShadingStage::redo(const Tile& tile, const TileMask& uncertain, const ExactFallback& fallback,
                        Image& image) {
     int count = 0;
     for (std::size_t b = 0; b < kTileBlocks; ++b) {
@@ -51,9 +51,10 @@ int ShadingStage::redo(const Tile& tile, const TileMask& uncertain, const Refere
             const int lane = static_cast<int>(b) * kBlockLanes + bit;
             const int x = tile.x + lane_x(lane);
             const int y = tile.y + lane_y(lane);
-            image.at(x, y) = quantized(referee.color(x, y, tile.slot[lane], [&](std::size_t light) {
-                return (lit_[light][b] >> bit & 1) != 0;
-            }));
+            image.at(x, y) =
+                quantized(fallback.color(x, y, tile.slot[lane], [&](std::size_t light) {
+                    return (lit_[light][b] >> bit & 1) != 0;
+                }));
             ++count;
         }
     }

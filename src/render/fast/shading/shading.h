@@ -5,12 +5,12 @@
 #include <vector>
 
 #include "fast/shading/shading_tables.h"
-#include "fast/tile/referee.h"
+#include "fast/tile/exact_fallback.h"
 #include "fast/tile/tile.h"
 #include "nuvo/image/image.h"
 
 // Shading 16 pixels at a time in float, with a running bound on the error of each pixel. Where the
-// bound does not settle all three bytes, the referee computes the pixel as the serial tracer does.
+// bound does not settle all three bytes, the fallback computes the pixel as the serial tracer does.
 
 namespace nuvo {
 
@@ -18,9 +18,9 @@ namespace nuvo {
 struct alignas(64) ShadingScratch {
     SurfaceWord word[kTileLanes];    ///< unless all are the same
     TileMask lit_material;           ///< lanes that lights may light
-    TileMask curved;                 ///< whose normal is in Tile::normal: not a flat triangle's
+    TileMask smooth;                 ///< whose normal is in Tile::normal: not a flat triangle's
     TileMask colored;                ///< whose color is interpolated
-    float normal_error[kTileLanes];  ///< of curved lanes
+    float normal_error[kTileLanes];  ///< of smooth lanes
     float view[3][kTileLanes];       ///< unit, to the viewer; if something is specular
     float color[3][kTileLanes];      ///< of colored lanes, times 255
 
@@ -55,7 +55,7 @@ void pick_finish_kernel(InstructionSet isa, ShadingKernels& kernels);
 /// Turns the hits of a tile into bytes of the picture, light by light:
 ///   surface(tile);
 ///   for each light: sample(tile, light, wanted), find which wanted lanes are unblocked, add(...);
-///   finish(tile, referee, image).
+///   finish(tile, fallback, image).
 /// For one thread; copies share the tables.
 class ShadingStage {
   public:
@@ -68,22 +68,23 @@ class ShadingStage {
     const ShadingTables& tables() const { return *tables_; }
 
     /// Points and normals: Tile::point and point_error (which bounds the distance, too) of every
-    /// lane that hits something; Tile::normal of round primitives and interpolated normals, and
+    /// lane that hits something; Tile::normal of quadrics and interpolated normals, and
     /// where something is specular of all; NaN where floats cannot tell.
     void surface(Tile& tile);
-    /// Which lanes the light lights if nothing is in its way. What it leaves out is surely lit with
+    /// Which lanes the light lights if nothing hides it. What it leaves out is surely lit with
     /// exactly zero, or not at all.
     void sample(const Tile& tile, std::size_t light, TileMask& wanted);
     /// Adds the light to the lanes of `lit`, a part of the `wanted` of the last sample(). Lights
     /// that are not asked for add nothing.
     void add(std::size_t light, const TileMask& lit);
-    /// Returns the number of pixels that the referee decided.
-    int finish(const Tile& tile, const Referee& referee, Image& image);
+    /// Returns the number of pixels that the fallback decided.
+    int finish(const Tile& tile, const ExactFallback& fallback, Image& image);
 
   private:
     using LitLanes = std::array<std::uint16_t, kTileBlocks>;
 
-    int redo(const Tile& tile, const TileMask& uncertain, const Referee& referee, Image& image);
+    int redo(const Tile& tile, const TileMask& uncertain, const ExactFallback& fallback,
+             Image& image);
 
     std::shared_ptr<const ShadingTables> tables_;
     ShadingKernels kernels_;

@@ -40,7 +40,7 @@ class LightSampler {
     }
 
   private:
-    using Way = std::conditional_t<kDirectional, NoWay, WayToLight>;
+    using Toward = std::conditional_t<kDirectional, NoToLight, ToLight>;
 
     std::uint32_t in_scope(int b, std::uint32_t lanes) const {
         for (std::uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
@@ -53,13 +53,13 @@ class LightSampler {
 
     HWY_INLINE std::uint32_t sample(int b, std::uint32_t lanes) {
         const int first = b * kBlockLanes;
-        const Way way(light_, tile_, first);
-        const std::uint32_t curved = light_.facing.empty() ? 0xffff : scratch_.curved[b];
+        const Toward toward(light_, tile_, first);
+        const std::uint32_t smooth = light_.cosines.empty() ? 0xffff : scratch_.smooth[b];
         Lit lit{Floats(0.0F), Floats(0.0F)};
-        if ((lanes & ~curved) != 0) lit = flat(first, way);
-        if ((lanes & curved) != 0) {
-            const Lit other = by_normal(b, way);
-            const RayMask mask = RayMask::from_bits(curved);
+        if ((lanes & ~smooth) != 0) lit = flat(first, toward);
+        if ((lanes & smooth) != 0) {
+            const Lit other = by_normal(b, toward);
+            const RayMask mask = RayMask::from_bits(smooth);
             lit = {select(mask, other.value, lit.value), select(mask, other.error, lit.error)};
         }
         // NaN is wanted.
@@ -71,13 +71,13 @@ class LightSampler {
         if constexpr (!kDirectional) {
             weaker = light_.ranged || light_.attenuated || light_.spot;
             if (weaker) {
-                factor = strength(light_, way);
+                factor = strength(light_, toward);
                 lit.error = mul_add(lit.value, factor.error, lit.error);
                 lit.value = lit.value * factor.value;
             }
         }
         if ((tables_.any_flags & kSpecularFlag) != 0)
-            add_lobe(first, way, weaker ? &factor : nullptr, wanted);
+            add_lobe(first, toward, weaker ? &factor : nullptr, wanted);
         if (weaker) wanted = wanted & factor.perhaps;
         lit.value.store(scratch_.shine + first);
         lit.error.store(scratch_.shine_error + first);
@@ -91,48 +91,49 @@ class LightSampler {
 
     // gain n.l of flat triangles. Directional: the table's rounding. Else the table's n.(L - a)
     // over |L - P|: also that of the product and those of the inverse length.
-    HWY_INLINE Lit flat(int first, const Way& way) const {
+    HWY_INLINE Lit flat(int first, const Toward& toward) const {
         const Ints slot = Ints::load(reinterpret_cast<const std::int32_t*>(tile_.slot) + first);
         const auto known = (slot > Ints(-1)) &
                            (slot < Ints(static_cast<std::int32_t>(tables_.scene.triangle_end())));
-        const Floats facing = Floats::gather(light_.facing.data(), select(known, slot, Ints(0)));
+        const Floats cosine = Floats::gather(light_.cosines.data(), select(known, slot, Ints(0)));
         if constexpr (kDirectional) {
-            return {facing, mul_add(abs(facing), Floats(1.01F * kFloatRoundoff + tint_rounding_),
-                                    Floats(light_.facing_error))};
+            return {cosine, mul_add(abs(cosine), Floats(1.01F * kFloatRoundoff + tint_rounding_),
+                                    Floats(light_.cosine_error))};
         } else {
-            const Floats value = facing * way.inverse;
-            const Floats relative = way.relative + Floats(2.1F * kFloatRoundoff + tint_rounding_);
+            const Floats value = cosine * toward.inverse;
+            const Floats relative =
+                toward.relative + Floats(2.1F * kFloatRoundoff + tint_rounding_);
             return {value,
-                    mul_add(abs(value), relative, Floats(light_.facing_error) * way.inverse)};
+                    mul_add(abs(value), relative, Floats(light_.cosine_error) * toward.inverse)};
         }
     }
 
     // Unit vectors n and l with their errors; n.l has 3 roundings of at most 1 each; the gain and
     // the product two more, relative to n.l (which also hands on a NaN).
-    HWY_INLINE Lit by_normal(int b, const Way& way) const {
+    HWY_INLINE Lit by_normal(int b, const Toward& toward) const {
         const int first = b * kBlockLanes;
         Floats dot(0.0F);
         for (int axis = 0; axis < 3; ++axis) {
             const Floats n = Floats::load(tile_.normal[axis] + first);
-            dot = mul_add(n, way.toward(light_, axis), dot);
+            dot = mul_add(n, toward.unit(light_, axis), dot);
         }
         const Floats gain(light_.gain);
-        const Floats error =
-            normal_error(b) + direction_error(way) + Floats(3.1F * kFloatRoundoff + tint_rounding_);
+        const Floats error = normal_error(b) + direction_error(toward) +
+                             Floats(3.1F * kFloatRoundoff + tint_rounding_);
         return {dot * gain, mul_add(abs(dot), Floats(3 * kFloatRoundoff), error) * gain};
     }
     HWY_INLINE Floats normal_error(int b) const {
         constexpr float kTableError =
             1.1F * kFloatRoundoff;  // one rounding and kTriangleNormalError
-        return select(RayMask::from_bits(scratch_.curved[b]),
+        return select(RayMask::from_bits(scratch_.smooth[b]),
                       Floats::load(scratch_.normal_error + b * kBlockLanes), Floats(kTableError));
     }
     // Of the unit vector to the light.
-    HWY_INLINE Floats direction_error(const Way& way) const {
+    HWY_INLINE Floats direction_error(const Toward& toward) const {
         if constexpr (kDirectional)
             return Floats(1.1F * kFloatRoundoff);
         else
-            return way.relative + Floats(1.1F * kFloatRoundoff);
+            return toward.relative + Floats(1.1F * kFloatRoundoff);
     }
 
     HWY_INLINE void add_ambient(int first, Lit& lit, RayMask& wanted) const {
@@ -152,7 +153,7 @@ class LightSampler {
             shift_left<kFloatsLog2>(word & Ints(static_cast<std::int32_t>(kMaterialMask))));
     }
 
-    HWY_INLINE void add_lobe(int first, const Way& way, const Factor* factor,
+    HWY_INLINE void add_lobe(int first, const Toward& toward, const Factor* factor,
                              RayMask& wanted) const {
         RayMask shiny = RayMask::from_bits((tables_.common_word & kSpecularFlag) ? 0xffff : 0);
         if (!tables_.uniform) {
@@ -169,11 +170,11 @@ class LightSampler {
             for (int axis = 0; axis < 3; ++axis) {
                 normal[axis] = Floats::load(tile_.normal[axis] + first);
                 to_viewer[axis] = Floats::load(scratch_.view[axis] + first);
-                to_light[axis] = way.toward(light_, axis);
+                to_light[axis] = toward.unit(light_, axis);
             }
             // The view's: d's own, 2 halves of |d|^2, the root's and the product's.
             const Floats directions_error =
-                direction_error(way) + Floats(tables_.rays.relative + 4.3F * kFloatRoundoff);
+                direction_error(toward) + Floats(tables_.rays.relative + 4.3F * kFloatRoundoff);
             lobe = specular_lobe(normal, to_light, to_viewer, normal_error(first / kBlockLanes),
                                  directions_error, of_materials(first, &ShadingMaterial::exponent));
             lobe.perhaps = lobe.perhaps & shiny;

@@ -7,12 +7,12 @@
 #define HWY_TARGET_INCLUDE "fast/shading/shading_surface.cpp"
 #include <hwy/foreach_target.h>
 
-#include "fast/shading/curved_lanes.h"
+#include "fast/shading/smooth_normals.h"
 #include "fast/simd/lanes.h"
 #include "fast/simd/vector_math.h"
 
 // Points of all lanes from 1 / t; words of their materials; and for spheres, interpolated normals
-// and colors the slower way of curved_lanes.h.
+// and colors the slower way of smooth_normals.h.
 
 HWY_BEFORE_NAMESPACE();
 namespace nuvo::HWY_NAMESPACE {
@@ -28,7 +28,7 @@ class SurfaceFiller {
     void run() {
         for (int b = 0; b < kTileBlocks; ++b) {
             scratch_.lit_material[b] = 0;
-            scratch_.curved[b] = 0;
+            scratch_.smooth[b] = 0;
             scratch_.colored[b] = 0;
             if (tile_.hit[b] != 0) fill(b);
         }
@@ -46,7 +46,7 @@ class SurfaceFiller {
         const Ints slot = Ints::load(reinterpret_cast<const std::int32_t*>(tile_.slot) + first);
         const auto triangle = (slot > Ints(-1)) & (slot < Ints(triangle_end_));
         const std::uint32_t triangles = triangle_end_ == 0 ? 0 : triangle.bits();
-        std::uint32_t special = hit & ~triangles;  // lanes of curved_lanes.h
+        std::uint32_t special = hit & ~triangles;  // lanes of smooth_normals.h
         std::uint32_t unlit = (tables_.common_word & kUnlitFlag) != 0 ? 0xffff : 0;
         if (!tables_.uniform) {
             Ints word(0);
@@ -61,7 +61,7 @@ class SurfaceFiller {
         if (!tables_.normals.empty() && triangles != 0)
             gather_normals(first, select(triangle, slot, Ints(0)));
         if (special != 0) {
-            CurvedLanes(tables_, tile_, scratch_, directions, b).fill(special);
+            SmoothNormalLanes(tables_, tile_, scratch_, directions, b).fill(special);
             if (!tables_.uniform)
                 unlit = flagged(
                     Ints::load(reinterpret_cast<const std::int32_t*>(scratch_.word) + first),

@@ -5,7 +5,7 @@
 #include <limits>
 #include <map>
 
-#include "fast/shading/shading_facing.h"
+#include "fast/shading/shading_cosines.h"
 #include "nuvo/geometry/predicates.h"
 #include "nuvo/render/shading.h"
 
@@ -17,7 +17,7 @@ constexpr double kFullByte = 255;
 constexpr double kSlack = 1.02;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // More lights use normals: their tables would outgrow the caches.
-constexpr std::size_t kLightsWithFacing = 8;
+constexpr std::size_t kLightsWithCosines = 8;
 
 float rounded(double value) { return static_cast<float>(value); }
 double largest(const Color& c) { return std::max(c.x, std::max(c.y, c.z)); }
@@ -177,7 +177,7 @@ void place_light(const ShadingTables& tables, const Light& exact, ShadingLight& 
     light.ranged = !(exact.radius * scale > reach * kSlack);
     light.radius = rounded(exact.radius * scale);
     // Of n.(L - a): the normal's, and that P is not quite in the plane.
-    light.facing_error = rounded_up(
+    light.cosine_error = rounded_up(
         light.exact_gain *
         (2 * kTriangleNormalError * reach + world_rounding(scene, exact.location)) * kSlack);
 }
@@ -210,7 +210,7 @@ ShadingLight shading_light(const ShadingTables& tables, const Light& exact) {
     if (light.directional) {
         if (exact.direction == Vector3{}) light.dead = true;
         for (int axis = 0; axis < 3; ++axis) light.toward[axis] = rounded(-exact.direction[axis]);
-        light.facing_error = rounded_up(light.exact_gain * 2 * kTriangleNormalError);
+        light.cosine_error = rounded_up(light.exact_gain * 2 * kTriangleNormalError);
     } else {
         place_light(tables, exact, light);
     }
@@ -228,8 +228,8 @@ void add_lights(ShadingTables& tables) {
         tables.lights.push_back(shading_light(tables, exact));
         if (!is_gray(exact.color)) tables.channels = 3;
         ambient = ambient || exact.ambient_intensity != 0;
-        if (tables.lights.size() <= kLightsWithFacing && !tables.lights.back().dead)
-            tables.lights.back().facing.resize(tables.scene.triangle_end());
+        if (tables.lights.size() <= kLightsWithCosines && !tables.lights.back().dead)
+            tables.lights.back().cosines.resize(tables.scene.triangle_end());
     }
     for (const Material& m : scene.materials)
         tables.any_ambient = tables.any_ambient || (ambient && m.lit && m.ambient_intensity != 0);
@@ -248,7 +248,7 @@ void bound_points(ShadingTables& tables) {
         rounded_up(kSlack * (4.2 * kFloatRoundoff * static_cast<double>(rays.longest) +
                              static_cast<double>(rays.error)));
     // Of a sphere's centre and of a point's last sum.
-    bounds.curved_point_error = rounded_up(kSlack * (kFloatRoundoff * 2 * kSceneRadius + world));
+    bounds.sphere_point_error = rounded_up(kSlack * (kFloatRoundoff * 2 * kSceneRadius + world));
 }
 
 std::vector<BackgroundBand> bands(const std::vector<Color>& colors,
@@ -335,7 +335,7 @@ ShadingTables::ShadingTables(const FastScene& scene_in, const CameraRays& camera
     add_background(*this);
     const std::size_t triangles = scene.triangle_end();
     if (!uniform) triangle_words.resize(triangles);
-    const bool few_lights = lights.size() <= kLightsWithFacing;
+    const bool few_lights = lights.size() <= kLightsWithCosines;
     if ((any_flags & kSpecularFlag) != 0 || !few_lights) normals.resize(4 * triangles);
     if (filling == TableFilling::kNow) fill_tables(scene, 1, *this);
 }
@@ -349,7 +349,7 @@ std::size_t ShadingTables::memory_bytes() const {
                         normals.size() * sizeof(float) + smooth.size() * sizeof(SmoothTriangle) +
                         smooth_offsets.size() * sizeof(std::uint32_t);
     for (const ShadingLight& light : lights)
-        bytes += sizeof(light) + light.facing.size() * sizeof(float);
+        bytes += sizeof(light) + light.cosines.size() * sizeof(float);
     return bytes;
 }
 

@@ -21,7 +21,7 @@
 namespace nuvo {
 
 /// Bounds |n - n'| of a triangle's normals as a table and as surface_point() compute them (see
-/// shading_facing.cpp).
+/// shading_cosines.cpp).
 inline constexpr double kTriangleNormalError = 0x1p-34;
 
 /// A material, its colors times 255.
@@ -70,8 +70,8 @@ struct ShadingLight {
     float inverse_width = 0;  ///< 1 / (cut_off - beam_width); infinite: a sharp edge
     /// By slot of a flat triangle: gain times n.l (directional) or n.(L - a), n turned as
     /// shading_normal() turns it; NaN where double is not enough to know. Empty: use normals.
-    BigVector<float> facing;
-    float facing_error = 0;  ///< absolute, beside one rounding
+    BigVector<float> cosines;
+    float cosine_error = 0;  ///< absolute, beside one rounding
 };
 
 /// The interpolated normal of a triangle as a function of the pixel, but for its length: in the
@@ -119,7 +119,7 @@ struct ShadingBackground {
 struct ShadingBounds {
     float point_constant = 0;  ///< |P in float - P| <= this + t (point_by_t + ...)
     float point_by_t = 0;
-    float curved_point_error = 0;  ///< of a sphere's points, without its normal's part
+    float sphere_point_error = 0;  ///< of a sphere's points, without its normal's part
     float color_error = 0;         ///< of interpolated colors, times 255
 };
 
@@ -131,7 +131,7 @@ struct ShadingTables {
 
     /// For fill_tables(); by several threads at a time.
     void take(const TriangleChunk& chunk);
-    void take_rounds(RoundSpan) {}
+    void take_quadrics(QuadricSpan) {}
     void finish() {}
 
     std::size_t memory_bytes() const;
@@ -149,7 +149,7 @@ struct ShadingTables {
     SurfaceWord any_flags = 0;                ///< of any primitive
     int channels = 1;                         ///< of sums of light: 1 if all lights are gray
     bool any_ambient = false;                 ///< of a light and a material
-    bool sound = true;  ///< false: a number is out of range, every pixel is for the referee
+    bool sound = true;  ///< false: a number is out of range, every pixel is for the fallback
     std::vector<ShadingLight> lights;
     BigVector<float> normals;                   ///< x, y, z, 0 by slot; empty: never asked for
     BigVector<SmoothTriangle> smooth;           ///< of the meshes with interpolated normals

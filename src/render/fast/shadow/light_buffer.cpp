@@ -132,7 +132,7 @@ class LightBufferMaker {
                     for (int axis = 0; axis < 3; ++axis)
                         at[corner][axis][i] = t.corner[corner][axis];
             } else {
-                const RoundShape& shape = source_.rounds[slot - triangle_end_];
+                const Quadric& shape = source_.quadrics[slot - triangle_end_];
                 for (int axis = 0; axis < 3; ++axis) {
                     at[0][axis][i] = shape.center[axis] - shape.radius;
                     at[1][axis][i] = shape.center[axis] + shape.radius;

@@ -7,15 +7,15 @@
 #include "fast/shadow/shadow_geometry.h"
 #include "nuvo/math/big_vector.h"
 
-// What may stand between a light and a point is looked up in a grid of the ways from the light
+// What may stand between a light and a point is looked up in a grid of the shadow rays of the light
 // (Haines and Greenberg 1986, "The light buffer: a shadow-testing accelerator"): each cell lists
-// the items that some way through it may meet. Lists leave out nothing, so the answer is the
+// the items that some shadow ray through it may meet. Lists leave out nothing, so the answer is the
 // octree's; they are short where items are about as large as cells.
 //
 // A light far outside of the scene sees it through one plane, x_k = 0 for the axis k along which it
-// stands farthest: the way through P meets that plane at u = P_u - P_k W_u / W_k, W being the way
-// from P to the light. A light among the items looks through the six faces of a cube around it, at
-// u = W_u / W_k.
+// stands farthest: the shadow ray through P meets that plane at u = P_u - P_k W_u / W_k, W being
+// the vector from P to the light. A light among the items looks through the six faces of a cube
+// around it, at u = W_u / W_k.
 
 namespace nuvo {
 
@@ -44,9 +44,9 @@ struct LightBuffer {
     /// What it is made from.
     struct Source {
         const FastScene& scene;
-        const BigVector<RoundShape>& rounds;
+        const BigVector<Quadric>& quadrics;
         double reach;  ///< bounds |coordinate| in the scene
-        double touch;  ///< what lies within this of a way may block it
+        double touch;  ///< what lies within this of a shadow ray may block it
     };
     static constexpr std::size_t kMaxGrids = 4;
 

@@ -13,12 +13,12 @@
 #include "fast/simd/lanes.h"
 #include "nuvo/math/error_bounds.h"
 
-// Where 16 items at a time may be met by the ways from a light, rounded outwards.
+// Where 16 items at a time may be met by shadow rays, rounded outwards.
 //
-// A way from a true point P* through a point Q of an item meets the light's plane or face where Q
-// does, and Q lies less deep. What is looked up is P, which is off by some error at most; so an
-// item's range is widened by how far that, the item's own roundings and those of the map can move
-// u and v.
+// A shadow ray from a true point P* through a point Q of an item meets the light's plane or face
+// where Q does, and Q lies less deep. What is looked up is P, which is off by some error at most;
+// so an item's range is widened by how far that, the item's own roundings and those of the map can
+// move u and v.
 
 HWY_BEFORE_NAMESPACE();
 namespace nuvo::HWY_NAMESPACE {
@@ -67,7 +67,7 @@ class PlaneRanges {
         out.stretch = static_cast<float>(stretch_);
         out.axis = k;
         out.sign = light.toward[k] > 0 ? 1.0F : -1.0F;
-        away_ = -out.sign;
+        atoward_light_ = -out.sign;
         see(source.scene.octree().bounds, light, out, extent);
         return true;
     }
@@ -95,8 +95,9 @@ class PlaneRanges {
             out.low[i] = low - Floats(margin_);
             out.high[i] = high + Floats(margin_);
         }
-        Floats near = min(c.at[0][axis_] * Floats(away_), c.at[1][axis_] * Floats(away_));
-        if (c.count == 3) near = min(near, c.at[2][axis_] * Floats(away_));
+        Floats near =
+            min(c.at[0][axis_] * Floats(atoward_light_), c.at[1][axis_] * Floats(atoward_light_));
+        if (c.count == 3) near = min(near, c.at[2][axis_] * Floats(atoward_light_));
         out.near = near - Floats(depth_margin_);
         return out;
     }
@@ -139,7 +140,7 @@ class PlaneRanges {
     int axis_ = 0;
     float toward_[3] = {};
     float weight_ = 0;
-    float away_ = 0;
+    float atoward_light_ = 0;
     double stretch_ = 0;
     double rounding_ = 0;
     float margin_ = 0;  // of u and v
@@ -172,12 +173,13 @@ class CubeRanges {
         count_ = c.count;
         for (int axis = 0; axis < 3; ++axis) {
             for (int i = 0; i < c.count; ++i)
-                way_[axis][i] = neg_mul_add(c.at[i][axis], Floats(weight_), Floats(toward_[axis]));
-            low_[axis] = min(way_[axis][0], way_[axis][1]);
-            high_[axis] = max(way_[axis][0], way_[axis][1]);
+                toward_light_[axis][i] =
+                    neg_mul_add(c.at[i][axis], Floats(weight_), Floats(toward_[axis]));
+            low_[axis] = min(toward_light_[axis][0], toward_light_[axis][1]);
+            high_[axis] = max(toward_light_[axis][0], toward_light_[axis][1]);
             if (c.count == 3) {
-                low_[axis] = min(low_[axis], way_[axis][2]);
-                high_[axis] = max(high_[axis], way_[axis][2]);
+                low_[axis] = min(low_[axis], toward_light_[axis][2]);
+                high_[axis] = max(high_[axis], toward_light_[axis][2]);
             }
         }
     }
@@ -226,9 +228,9 @@ class CubeRanges {
                     max(high_[axis] * inverse_least, high_[axis] * inverse_most)};
         }
         const Floats sign(upper ? 1.0F : -1.0F);
-        const Floats u[3] = {way_[axis][0] / (way_[k][0] * sign),
-                             way_[axis][1] / (way_[k][1] * sign),
-                             way_[axis][2] / (way_[k][2] * sign)};
+        const Floats u[3] = {toward_light_[axis][0] / (toward_light_[k][0] * sign),
+                             toward_light_[axis][1] / (toward_light_[k][1] * sign),
+                             toward_light_[axis][2] / (toward_light_[k][2] * sign)};
         return {min(u[0], min(u[1], u[2])), max(u[0], max(u[1], u[2]))};
     }
 
@@ -236,7 +238,7 @@ class CubeRanges {
     float weight_ = 0;
     float error_ = 0;
     int count_ = 0;
-    Floats way_[3][3];  // by axis, corner
+    Floats toward_light_[3][3];  // by axis, corner
     Floats low_[3];
     Floats high_[3];
 };

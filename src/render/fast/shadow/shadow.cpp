@@ -20,11 +20,11 @@ namespace nuvo::HWY_NAMESPACE {
 
 class ShadowTracer {
   public:
-    ShadowTracer(ShadowJob& job, const Tile& tile, std::size_t light, const Referee& referee)
+    ShadowTracer(ShadowJob& job, const Tile& tile, std::size_t light, const ExactFallback& fallback)
         : context_(job, light),
           tile_(tile),
           light_(light),
-          referee_(referee),
+          fallback_(fallback),
           lookup_(context_, blocks_) {}
 
     void run(const TileMask& wanted, TileMask& lit) {
@@ -73,8 +73,8 @@ class ShadowTracer {
             });
     }
 
-    // Asks the referee about the points that nothing has surely blocked, point by point, so that
-    // each point's way is made once.
+    // Asks the fallback about the points that nothing has surely blocked, point by point, so that
+    // each point's shadow ray is made once.
     void settle() {
         std::vector<OpenShadow>& open = context_.job.open;
         std::sort(open.begin(), open.end(),
@@ -87,10 +87,10 @@ class ShadowTracer {
             const std::uint32_t bit = 1U << lane % kBlockLanes;
             if ((block.waiting() & bit) != 0) {
                 const auto i = static_cast<int>(lane);
-                const auto way = referee_.way_to_light(tile_.x + lane_x(i), tile_.y + lane_y(i),
-                                                       tile_.slot[i], light_);
+                const auto ray = fallback_.shadow_ray(tile_.x + lane_x(i), tile_.y + lane_y(i),
+                                                      tile_.slot[i], light_);
                 if (std::any_of(at, end,
-                                [&](const auto& o) { return referee_.blocks(way, o.item); }))
+                                [&](const auto& o) { return fallback_.blocks(ray, o.item); }))
                     block.block(bit);
             }
             at = end;
@@ -101,14 +101,14 @@ class ShadowTracer {
     ShadowContext context_;
     const Tile& tile_;
     std::size_t light_;
-    const Referee& referee_;
+    const ExactFallback& fallback_;
     ShadowBlock blocks_[kTileBlocks];
     ShadowLookup lookup_;
 };
 
 void trace_shadows(ShadowJob& job, const Tile& tile, std::size_t light, const TileMask& wanted,
-                   const Referee& referee, TileMask& lit) {
-    ShadowTracer(job, tile, light, referee).run(wanted, lit);
+                   const ExactFallback& fallback, TileMask& lit) {
+    ShadowTracer(job, tile, light, fallback).run(wanted, lit);
 }
 
 }  // namespace nuvo::HWY_NAMESPACE
@@ -123,9 +123,9 @@ ShadowStage::ShadowStage(const ShadowTables& tables, InstructionSet isa, bool re
     : job_{tables, redo_exactly}, trace_(NUVO_FOR_ISA(isa, trace_shadows)) {}
 
 void ShadowStage::trace(const Tile& tile, std::size_t light, const TileMask& wanted,
-                        const Referee& referee, TileMask& lit) {
+                        const ExactFallback& fallback, TileMask& lit) {
     if (job_.tables.scene().scene().lights[light].casts_shadow)
-        trace_(job_, tile, light, wanted, referee, lit);
+        trace_(job_, tile, light, wanted, fallback, lit);
     else
         std::copy(std::begin(wanted), std::end(wanted), std::begin(lit));
 }

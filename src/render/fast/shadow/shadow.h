@@ -7,7 +7,7 @@
 
 #include "fast/scene/mailbox.h"
 #include "fast/shadow/shadow_tables.h"
-#include "fast/tile/referee.h"
+#include "fast/tile/exact_fallback.h"
 #include "fast/tile/tile.h"
 
 // Shadow rays: the items that may hide a point from a light are found in the light's buffer, and
@@ -35,13 +35,13 @@ class ShadowStage {
     ShadowStage(const ShadowTables& tables, InstructionSet isa, bool redo_exactly);
 
     /// Sets in `lit` the lanes of `wanted` that nothing blocks from the light.
-    void trace(const Tile& tile, std::size_t light, const TileMask& wanted, const Referee& referee,
-               TileMask& lit);
+    void trace(const Tile& tile, std::size_t light, const TileMask& wanted,
+               const ExactFallback& fallback, TileMask& lit);
 
   private:
     ShadowJob job_;
     void (*trace_)(ShadowJob&, const Tile&, std::size_t light, const TileMask& wanted,
-                   const Referee&, TileMask& lit);
+                   const ExactFallback&, TileMask& lit);
 };
 
 }  // namespace nuvo

@@ -11,7 +11,7 @@ namespace {
 // Four roundings of numbers up to 1 and more: of the light's place, of a difference and of a bound.
 constexpr float kRounding = 4 * kFloatRoundoff;
 
-// Seen from a light nearby the ways to a box stay within its pyramid; from the box to the light
+// Seen from a light nearby the rays to a box stay within its pyramid; from the box to the light
 // they are as good as parallel.
 constexpr double kNearWeight = 0x1p-6;
 
@@ -37,8 +37,8 @@ BeamBox from_points(const LightPoint& light, const float (&low)[3], const float 
     for (int axis = 0; axis < 3; ++axis) {
         const auto toward = static_cast<float>(light.toward[axis]);
         const auto weight = static_cast<float>(light.weight);
-        // Where ways keep to a plane across the axis, a beam of one sign is as good: points within
-        // `slack` of a face count as beyond it either way.
+        // Where shadow rays keep to a plane across the axis, a beam of one sign is as good: points
+        // within `slack` of a face count as beyond it either way.
         const bool across = weight == 0 && toward == 0;
         const float rounding = across ? 0 : kRounding;
         beam.origin_low[axis] = low[axis] - slack;
@@ -48,7 +48,7 @@ BeamBox from_points(const LightPoint& light, const float (&low)[3], const float 
         if (across) beam.direction_low[axis] = beam.direction_high[axis] = 0x1p-100F;
     }
     constexpr double kEndless = 0x1p60;
-    // A thousandth more than the way to the light.
+    // A thousandth more than the distance to the light.
     beam.t_end = static_cast<float>(std::min(kEndless, 1.001 / light.weight));
     return beam;
 }

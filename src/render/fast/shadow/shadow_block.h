@@ -14,9 +14,9 @@
 #include "fast/simd/lanes.h"
 #include "fast/tile/tile.h"
 
-// The points of a block and what hides them. A way from a point to the light is blocked as soon as
-// one item surely blocks it; what floats leave open is put aside for the referee, who is asked only
-// about points that nothing blocked surely.
+// The points of a block and what hides them. A shadow ray is blocked as soon as
+// one item surely blocks it; what floats leave open is put aside for the fallback, who is asked
+// only about points that nothing blocked surely.
 
 HWY_BEFORE_NAMESPACE();
 namespace nuvo::HWY_NAMESPACE {
@@ -44,8 +44,8 @@ class ShadowBlock {
         error_ = Floats::load(tile.point_error + first_);
         plane_error_ = (error_ + Floats(tables.plane_error())) * Floats(kRounded);
         if (!tables.has_rounds()) return;
-        round_error_ = (error_ + error_ + Floats(tables.round_error())) * Floats(kRounded);
-        ways_ = Ways(context.table.light, points_);
+        quadric_error_ = (error_ + error_ + Floats(tables.quadric_error())) * Floats(kRounded);
+        shadow_rays_ = ShadowRays(context.table.light, points_);
     }
 
     const Points& points() const { return points_; }
@@ -55,7 +55,7 @@ class ShadowBlock {
     /// Ends the waiting of lanes.
     HWY_INLINE void block(std::uint32_t lanes) { waiting_ &= ~lanes; }
 
-    /// Asks whether `slot` stands in the way of `lanes`; of other lanes it may find so, too.
+    /// Asks whether `slot` hides the light from `lanes`; of other lanes it may find so, too.
     HWY_INLINE void test(const ShadowContext& context, Slot slot, std::uint32_t lanes) {
         if (slot < context.job.tables.scene().triangle_end())
             test_triangle(context, slot, lanes);
@@ -80,16 +80,16 @@ class ShadowBlock {
     }
 
     HWY_INLINE void test_round(const ShadowContext& context, Slot slot, std::uint32_t lanes) {
-        const RoundItem item(context.job.tables, context.table, slot);
-        const RoundTest test(item, points_, ways_, round_error_);
+        const QuadricItem item(context.job.tables, context.table, slot);
+        const QuadricTest test(item, points_, shadow_rays_, quadric_error_);
         block(test.blocked());
         const std::uint32_t open = waiting_ & lanes & ~test.free();
         if (HWY_UNLIKELY(open != 0)) leave_round(context.job, slot, open, item, test);
     }
-    // Nor does a sphere where the way to the light leads outwards. Its own points touch it, so they
-    // come here unless their ways lead deep into it.
+    // Nor does a sphere where the ray to the light leads outwards. Its own points touch it, so they
+    // come here unless their shadow rays lead deep into it.
     HWY_NOINLINE void leave_round(ShadowJob& job, Slot slot, std::uint32_t lanes,
-                                  const RoundItem& item, const RoundTest& test) {
+                                  const QuadricItem& item, const QuadricTest& test) {
         const std::uint32_t of_item = lanes & own(slot);
         std::uint32_t rounded =
             (test.square < Floats(item.shape.radius * item.shape.radius)).bits() & ~of_item;
@@ -97,17 +97,18 @@ class ShadowBlock {
             const Floats fx = Floats(item.shape.center[0]) - points_.x;
             const Floats fy = Floats(item.shape.center[1]) - points_.y;
             const Floats fz = Floats(item.shape.center[2]) - points_.z;
-            const Floats along = mul_add(fx, ways_.x, mul_add(fy, ways_.y, fz * ways_.z));
-            // Off by the way's own error at one end, at most 1 away, and by the point's.
-            const Floats margin = mul_add(ways_.inverse, round_error_, round_error_);
+            const Floats along =
+                mul_add(fx, shadow_rays_.x, mul_add(fy, shadow_rays_.y, fz * shadow_rays_.z));
+            // Off by the ray's own error at one end, at most 1 away, and by the point's.
+            const Floats margin = mul_add(shadow_rays_.inverse, quadric_error_, quadric_error_);
             const std::uint32_t outwards = (along < -margin).bits();
             const std::uint32_t inwards = (along > margin).bits();
             if (item.side == LightSide::kOutside) block(of_item & inwards);
             lanes &= ~(of_item & outwards);
             if (item.side == LightSide::kInside) {
-                // The way ends inside: blocked iff it starts outside.
+                // The ray ends inside: blocked iff it starts outside.
                 const Floats square = mul_add(fx, fx, mul_add(fy, fy, fz * fz));
-                const Floats less = max(Floats(item.shape.radius) - round_error_, Floats(0.0F));
+                const Floats less = max(Floats(item.shape.radius) - quadric_error_, Floats(0.0F));
                 block(lanes & ~of_item & (square > test.outside).bits());
                 lanes &= ~(of_item | (square < less * less).bits());
             }
@@ -137,8 +138,8 @@ class ShadowBlock {
     Points points_;
     Floats error_;
     Floats plane_error_;
-    Floats round_error_;
-    Ways ways_;
+    Floats quadric_error_;
+    ShadowRays shadow_rays_;
 };
 
 }  // namespace nuvo::HWY_NAMESPACE

@@ -31,12 +31,12 @@ struct alignas(64) ShadowPlanes {
 };
 
 /// A sphere, or one around an ellipsoid, in the local frame.
-struct RoundShape {
+struct Quadric {
     float center[3];
     float radius;
 };
 
-/// Where a light stands towards a round shape.
+/// Where a light stands towards a quadric.
 enum class LightSide : std::uint8_t { kOutside, kInside, kUnknown };
 
 }  // namespace nuvo

@@ -29,14 +29,14 @@ HWY_INLINE Floats hidden(const ShadowPlanes& t, const Points& p) {
     return min(min(at(t.plane[0]), at(t.plane[1])), min(at(t.plane[2]), at(t.plane[3])));
 }
 
-/// The ways from points to a light.
-struct Ways {
+/// Shadow rays from points to a light.
+struct ShadowRays {
     Floats x, y, z;   ///< unit
     Floats distance;  ///< infinite for a direction
     Floats inverse;   ///< of the distance
 
-    HWY_INLINE Ways() = default;
-    HWY_INLINE Ways(const LightPoint& light, const Points& p) {
+    HWY_INLINE ShadowRays() = default;
+    HWY_INLINE ShadowRays(const LightPoint& light, const Points& p) {
         const auto weight = static_cast<float>(light.weight);
         x = neg_mul_add(p.x, Floats(weight), Floats(static_cast<float>(light.toward.x)));
         y = neg_mul_add(p.y, Floats(weight), Floats(static_cast<float>(light.toward.y)));
@@ -52,36 +52,36 @@ struct Ways {
 };
 
 /// A sphere, or one around an ellipsoid, with what is known of it towards the light.
-struct RoundItem {
-    HWY_INLINE RoundItem(const ShadowTables& tables, const ShadowTable& table, Slot slot)
-        : shape(tables.round(slot)),
+struct QuadricItem {
+    HWY_INLINE QuadricItem(const ShadowTables& tables, const ShadowTable& table, Slot slot)
+        : shape(tables.quadric(slot)),
           sphere(slot < tables.scene().sphere_end()),
-          side(table.round_sides.empty()
+          side(table.quadric_sides.empty()
                    ? LightSide::kOutside
-                   : table.round_sides[slot - tables.scene().triangle_end()]) {}
+                   : table.quadric_sides[slot - tables.scene().triangle_end()]) {}
 
-    const RoundShape& shape;
+    const Quadric& shape;
     bool sphere;
     LightSide side;
 };
 
-/// The point of a way that is nearest to the centre of a sphere. If it surely lies outside the way
-/// is free: it neither crosses nor touches the sphere. If it surely lies inside, and the light
-/// outside, the way is blocked: it has to come out, at t > 0, wherever it starts; if it starts on
-/// the sphere itself, then inwards. The rounding of the parameter does not matter, for any other is
-/// a point of the way, too.
-struct RoundTest {
-    /// `error` bounds how far ways may be off.
-    HWY_INLINE RoundTest(const RoundItem& item, const Points& p, const Ways& way,
-                         const Floats& error) {
+/// The point of a shadow ray that is nearest to the centre of a sphere. If it surely lies outside
+/// the ray is free: it neither crosses nor touches the sphere. If it surely lies inside, and the
+/// light outside, the ray is blocked: it has to come out, at t > 0, wherever it starts; if it
+/// starts on the sphere itself, then inwards. The rounding of the parameter does not matter, for
+/// any other is a point of the ray, too.
+struct QuadricTest {
+    /// `error` bounds how far shadow rays may be off.
+    HWY_INLINE QuadricTest(const QuadricItem& item, const Points& p, const ShadowRays& ray,
+                           const Floats& error) {
         const Floats fx = Floats(item.shape.center[0]) - p.x;
         const Floats fy = Floats(item.shape.center[1]) - p.y;
         const Floats fz = Floats(item.shape.center[2]) - p.z;
-        const Floats b = mul_add(fx, way.x, mul_add(fy, way.y, fz * way.z));
-        const Floats at = min(max(b, Floats(0.0F)), way.distance);
-        const Floats lx = neg_mul_add(at, way.x, fx);
-        const Floats ly = neg_mul_add(at, way.y, fy);
-        const Floats lz = neg_mul_add(at, way.z, fz);
+        const Floats b = mul_add(fx, ray.x, mul_add(fy, ray.y, fz * ray.z));
+        const Floats at = min(max(b, Floats(0.0F)), ray.distance);
+        const Floats lx = neg_mul_add(at, ray.x, fx);
+        const Floats ly = neg_mul_add(at, ray.y, fy);
+        const Floats lz = neg_mul_add(at, ray.z, fz);
         square = mul_add(lx, lx, mul_add(ly, ly, lz * lz));
         const Floats more = Floats(item.shape.radius) + error;
         outside = more * more;

@@ -195,7 +195,7 @@ class ShadowLookup {
                 if (slot < triangle_end)
                     hwy::Prefetch(context_.planes + slot);
                 else
-                    hwy::Prefetch(&context_.job.tables.round(slot));
+                    hwy::Prefetch(&context_.job.tables.quadric(slot));
                 candidates_[candidate_count_++] = {slot, visit.block, visit.lanes};
             }
             if (candidate_count_ <= kMaxCandidates - 16) continue;

@@ -71,9 +71,9 @@ ShadowTables::ShadowTables(const FastScene& scene, InstructionSet isa, int threa
              kFloatUnderflow;
     plane_error_ =
         rounded_up(kPlaneRoundings * kFloatRoundoff * reach_ + 2 * touch_ + kFloatUnderflow);
-    round_error_ =
+    quadric_error_ =
         rounded_up(kRoundRoundings * kFloatRoundoff * reach_ + kTouch * touch_ + kFloatUnderflow);
-    rounds_.resize(scene.slot_end() - scene.triangle_end());
+    quadrics_.resize(scene.slot_end() - scene.triangle_end());
     const std::vector<Light>& lights = scene.scene().lights;
     const auto casts = [](const Light& light) { return light.casts_shadow; };
     planes_.resize(static_cast<std::size_t>(std::count_if(lights.begin(), lights.end(), casts)) *
@@ -84,7 +84,7 @@ ShadowTables::ShadowTables(const FastScene& scene, InstructionSet isa, int threa
         if (!light.casts_shadow) continue;
         table.first_plane = made;
         made += scene.triangle_end();
-        if (!outside_of_all(table.light)) table.round_sides.resize(rounds_.size());
+        if (!outside_of_all(table.light)) table.quadric_sides.resize(quadrics_.size());
     }
     if (filling == TableFilling::kNow) fill_tables(scene, threads, *this);
 }
@@ -102,15 +102,15 @@ void ShadowTables::take(const TriangleChunk& chunk) {
     }
 }
 
-void ShadowTables::take_rounds(RoundSpan rounds) {
-    for (const RoundShapeSlot& round : rounds) {
-        scene_.soon(round);
-        const std::size_t i = round.slot - scene_.triangle_end();
-        rounds_[i] = round_shape(scene_.object(round.id).shape);
+void ShadowTables::take_quadrics(QuadricSpan quadrics) {
+    for (const QuadricSlot& quadric : quadrics) {
+        scene_.prefetched_after(quadric);
+        const std::size_t i = quadric.slot - scene_.triangle_end();
+        quadrics_[i] = quadric_of(scene_.object(quadric.id).shape);
         for (ShadowTable& table : tables_)
-            if (!table.round_sides.empty())
-                table.round_sides[i] =
-                    table.light.finite ? side(table.light, rounds_[i]) : LightSide::kUnknown;
+            if (!table.quadric_sides.empty())
+                table.quadric_sides[i] =
+                    table.light.finite ? side(table.light, quadrics_[i]) : LightSide::kUnknown;
     }
 }
 
@@ -118,14 +118,14 @@ void ShadowTables::finish() {
     for_each_index(threads_, tables_.size(), [&](std::size_t light, int) {
         ShadowTable& table = tables_[light];
         if (!scene_.scene().lights[light].casts_shadow) return;
-        table.buffer = LightBuffer(table.light, {scene_, rounds_, reach_, round_error_}, isa_);
-        const auto inside = std::find_if(table.round_sides.begin(), table.round_sides.end(),
+        table.buffer = LightBuffer(table.light, {scene_, quadrics_, reach_, quadric_error_}, isa_);
+        const auto inside = std::find_if(table.quadric_sides.begin(), table.quadric_sides.end(),
                                          [](LightSide s) { return s != LightSide::kOutside; });
-        if (inside == table.round_sides.end()) table.round_sides.clear();
+        if (inside == table.quadric_sides.end()) table.quadric_sides.clear();
     });
 }
 
-RoundShape ShadowTables::round_shape(const Shape& shape) const {
+Quadric ShadowTables::quadric_of(const Shape& shape) const {
     const LocalFrame& frame = scene_.frame();
     Point3 center;
     double radius = 0;
@@ -146,7 +146,7 @@ bool ShadowTables::outside_of_all(const LightPoint& light) const {
     if (light.weight == 0) return true;
     if (scene_.sphere_end() != scene_.slot_end()) return false;  // what is around them is not in it
     const Bounds3T<float>& box = scene_.octree().bounds;
-    const double margin = 2 * round_error_ + 8 * kFloatRoundoff * reach_;  // as in side()
+    const double margin = 2 * quadric_error_ + 8 * kFloatRoundoff * reach_;  // as in side()
     for (int axis = 0; axis < 3; ++axis)
         if (light.toward[axis] > (box.max[axis] + margin) * light.weight ||
             light.toward[axis] < (box.min[axis] - margin) * light.weight)
@@ -154,19 +154,19 @@ bool ShadowTables::outside_of_all(const LightPoint& light) const {
     return false;
 }
 
-LightSide ShadowTables::side(const LightPoint& light, const RoundShape& shape) const {
+LightSide ShadowTables::side(const LightPoint& light, const Quadric& shape) const {
     const Vector3 from{shape.center[0], shape.center[1], shape.center[2]};
     const double distance = length(from * light.weight - light.toward);
     const double radius = shape.radius * light.weight;
-    const double margin = 2 * round_error_ * light.weight + 4 * kFloatRoundoff * radius;
+    const double margin = 2 * quadric_error_ * light.weight + 4 * kFloatRoundoff * radius;
     if (distance > radius + margin) return LightSide::kOutside;
     return distance < radius - margin ? LightSide::kInside : LightSide::kUnknown;
 }
 
 std::size_t ShadowTables::memory_bytes() const {
-    std::size_t bytes = rounds_.size() * sizeof(RoundShape) + planes_.size() * sizeof(ShadowPlanes);
+    std::size_t bytes = quadrics_.size() * sizeof(Quadric) + planes_.size() * sizeof(ShadowPlanes);
     for (const ShadowTable& table : tables_)
-        bytes += table.round_sides.size() * sizeof(LightSide) + table.buffer.memory_bytes();
+        bytes += table.quadric_sides.size() * sizeof(LightSide) + table.buffer.memory_bytes();
     return bytes;
 }
 

@@ -16,8 +16,8 @@ struct ShadowTable {
     explicit ShadowTable(const LightPoint& from) : light(from) {}
 
     LightPoint light;
-    std::size_t first_plane = 0;       ///< where its planes begin among those of all lights
-    BigVector<LightSide> round_sides;  ///< of slots from triangle_end on; empty: all outside
+    std::size_t first_plane = 0;         ///< where its planes begin among those of all lights
+    BigVector<LightSide> quadric_sides;  ///< of slots from triangle_end on; empty: all outside
     LightBuffer buffer;
 };
 
@@ -29,7 +29,7 @@ class ShadowTables {
 
     /// For fill_tables(); by several threads at a time.
     void take(const TriangleChunk& chunk);
-    void take_rounds(RoundSpan rounds);
+    void take_quadrics(QuadricSpan quadrics);
     void finish();
 
     const FastScene& scene() const { return scene_; }
@@ -39,23 +39,23 @@ class ShadowTables {
     const ShadowPlanes* planes(std::size_t light) const {
         return planes_.data() + tables_[light].first_plane;
     }
-    const RoundShape& round(Slot slot) const { return rounds_[slot - scene_.triangle_end()]; }
-    bool has_rounds() const { return !rounds_.empty(); }
+    const Quadric& quadric(Slot slot) const { return quadrics_[slot - scene_.triangle_end()]; }
+    bool has_rounds() const { return !quadrics_.empty(); }
 
     /// Bounds |n.P + w - the true function at SurfacePoint::point|, evaluated in float, but for
     /// what P's own error (on each axis) adds; and a lit point's SurfacePoint::error.
     float plane_error() const { return plane_error_; }
     /// Bounds how far a float segment from point to light lies from the true one within the scene,
-    /// but for twice P's own error; with a margin in which round shapes count as touched.
-    float round_error() const { return round_error_; }
+    /// but for twice P's own error; with a margin in which quadrics count as touched.
+    float quadric_error() const { return quadric_error_; }
 
     std::size_t memory_bytes() const;
 
   private:
     /// Whether the light is a direction or stands where the scene surely does not reach.
     bool outside_of_all(const LightPoint& light) const;
-    RoundShape round_shape(const Shape& shape) const;
-    LightSide side(const LightPoint& light, const RoundShape& shape) const;
+    Quadric quadric_of(const Shape& shape) const;
+    LightSide side(const LightPoint& light, const Quadric& shape) const;
 
     const FastScene& scene_;
     InstructionSet isa_;
@@ -63,8 +63,8 @@ class ShadowTables {
     double reach_;  // largest |coordinate| of the scene's box in the local frame
     double touch_;  // bounds SurfacePoint::error, in the local frame
     float plane_error_;
-    float round_error_;
-    BigVector<RoundShape> rounds_;
+    float quadric_error_;
+    BigVector<Quadric> quadrics_;
     std::vector<ShadowTable> tables_;
     BigVector<ShadowPlanes> planes_;
 };

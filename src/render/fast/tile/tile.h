@@ -35,8 +35,8 @@ struct alignas(64) Tile {
     Slot slot[kTileLanes];  ///< kNoSlot: the background
     float near_low[kTileLanes];
     float near_high[kTileLanes];
-    float round_normal[3][kTileLanes];  ///< of ellipsoids: unit, outwards
-    float round_error[kTileLanes];      ///< bounds the error of round_normal on each axis
+    float quadric_normal[3][kTileLanes];  ///< of ellipsoids: unit, outwards
+    float quadric_error[kTileLanes];      ///< bounds the error of quadric_normal on each axis
     TileMask hit;
 
     // Surfaces: of lanes that hit something lit.

@@ -1,4 +1,4 @@
-#include "fast/shading/shading_facing.h"
+#include "fast/shading/shading_cosines.h"
 
 #include <cmath>
 #include <limits>
@@ -6,7 +6,7 @@
 #include "nuvo/math/error_bounds.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "fast/shading/shading_facing.cpp"
+#define HWY_TARGET_INCLUDE "fast/shading/shading_cosines.cpp"
 #include <hwy/foreach_target.h>
 
 #include "fast/scene/wide_vectors.h"
@@ -18,7 +18,7 @@
 // |e1| x |e2| is small, else from something better. Here that error has to stay below 2^-36 of the
 // product itself (2^15 bounds the magnitudes' sum, gamma(4) < 2^-50.9), so both are within
 // kTriangleNormalError of the true direction; other triangles get NaN, and their pixels the
-// referee.
+// fallback.
 
 HWY_BEFORE_NAMESPACE();
 namespace nuvo::HWY_NAMESPACE {
@@ -114,13 +114,13 @@ class TriangleFiller {
     HWY_INLINE void store(const Wide3& n, const Wide3& a, Slot first, std::size_t count) {
         for (std::size_t i = 0; i < tables_.lights.size(); ++i) {
             ShadingLight& light = tables_.lights[i];
-            if (light.facing.empty()) continue;
+            if (light.cosines.empty()) continue;
             const Light& exact = tables_.scene.scene().lights[i];
             const Wide gain(light.exact_gain);
             const Wide value = light.directional
                                    ? dot(n, wide(-exact.direction)) * gain
                                    : dot(n, (wide(exact.location) - a) * Wide(scale_)) * gain;
-            spread(value, light.facing.data() + first, 1, count);
+            spread(value, light.cosines.data() + first, 1, count);
         }
         if (tables_.normals.empty()) return;
         float* normals = tables_.normals.data() + 4 * static_cast<std::size_t>(first);

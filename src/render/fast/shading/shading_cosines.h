@@ -4,7 +4,7 @@
 
 namespace nuvo {
 
-/// Fills the numbers of a chunk's triangles: `facing` of each light that has room for them,
+/// Fills the numbers of a chunk's triangles: `cosines` of each light that has room for them,
 /// `normals`, `triangle_words` and `smooth` if they have room.
 void fill_triangles(ShadingTables& tables, const TriangleChunk& chunk, InstructionSet isa);
 

@@ -11,8 +11,9 @@
 #include "fast/scene/fast_scene.h"
 
 // A ray under way. One ray alone waits for its own memory, comparisons and mispredicted branches
-// most of the time; so a thread keeps many in flight and gives each a step in turn, sorted into
-// those at a node and those at a leaf, so that hardly a branch depends on a ray.
+// most of the time; so a thread keeps many under way (rays are interleaved) and gives each a step
+// in turn, sorted into those at a node and those at a leaf, so that hardly a branch depends on a
+// ray.
 
 namespace nuvo {
 
@@ -25,12 +26,12 @@ struct RayCandidate {
 };
 
 /// Where the faces that a ray meets first and last are, in floats from WideNode::low, by axis.
-struct FacesOnWay {
+struct FacesOnRay {
     std::uint32_t near[3];
     std::uint32_t far[3];
 };
-constexpr std::array<FacesOnWay, 8> faces_by_signs() {
-    std::array<FacesOnWay, 8> faces{};
+constexpr std::array<FacesOnRay, 8> faces_by_signs() {
+    std::array<FacesOnRay, 8> faces{};
     for (std::uint32_t signs = 0; signs < 8; ++signs)
         for (std::uint32_t axis = 0; axis < 3; ++axis) {
             const std::uint32_t negative = signs >> axis & 1;
@@ -41,11 +42,11 @@ constexpr std::array<FacesOnWay, 8> faces_by_signs() {
         }
     return faces;
 }
-inline constexpr std::array<FacesOnWay, 8> kFacesBySigns = faces_by_signs();
+inline constexpr std::array<FacesOnRay, 8> kFacesBySigns = faces_by_signs();
 
-struct RayFlight {
+struct RayState {
     static constexpr std::size_t kMaxCandidates = 40;
-    static constexpr std::uint32_t kLanded = 1U << 30;
+    static constexpr std::uint32_t kFinished = 1U << 30;
 
     /// What waits of a node, from near to far.
     struct alignas(64) Level {
@@ -55,14 +56,14 @@ struct RayFlight {
         std::uint32_t unused[15];
     };
 
-    std::uint32_t next = 0;  ///< what comes next (WideNode::child), or kLanded
+    std::uint32_t next = 0;  ///< what comes next (WideNode::child), or kFinished
     float next_entry = 0;    ///< where the ray enters it
     float best = 0;          ///< the nearest sure hit's upper bound
     std::uint32_t candidate_count = 0;
     Level* top = nullptr;     ///< the first free level; something waits in each below it
     std::uint32_t signs = 0;  ///< of the direction: which of WideNode::order
     std::size_t index = 0;    ///< among the batch's rays
-    /// The first one holds only kLanded.
+    /// The first one holds only kFinished.
     Level levels[CompactOctree::kMaxDepth + 2];
     RayCandidate candidates[kMaxCandidates];
 
@@ -73,7 +74,7 @@ struct RayFlight {
         best = std::numeric_limits<float>::infinity();
         candidate_count = 0;
         levels[0].entry[0] = 0;
-        levels[0].child[0] = kLanded;
+        levels[0].child[0] = kFinished;
         levels[0].waiting = 1;
         top = levels + 1;
         next = 0;

@@ -14,16 +14,16 @@
 namespace nuvo {
 
 /// Decides for one thread.
-class Referee {
+class ExactFallback {
     using Kernel = ExactKernelOf<SceneStore>;
 
   public:
-    Referee(const FastScene& scene, const CameraRays& camera)
+    ExactFallback(const FastScene& scene, const CameraRays& camera)
         : scene_(scene),
           camera_(camera),
           kernel_(scene.scene(), scene.primitives(), scene.triangle_box(), std::nullopt) {}
 
-    /// A hit found exactly: bounds on 1 / t in the local frame, and for a round primitive its
+    /// A hit found exactly: bounds on 1 / t in the local frame, and for a quadric its
     /// normal.
     struct Nearest {
         float low;
@@ -34,12 +34,12 @@ class Referee {
     /// (kNoSlot: none).
     std::optional<Nearest> nearer(int x, int y, Slot slot, Slot other) const;
 
-    /// The way to a light from the point that pixel (x, y) shows on `lit`.
-    Kernel::Shadow way_to_light(int x, int y, Slot lit, std::size_t light) const;
-    /// Whether `occluder` stands on that way.
-    bool blocks(const Kernel::Shadow& way, Slot occluder) const {
+    /// The shadow ray to a light from the point that pixel (x, y) shows on `lit`.
+    Kernel::Shadow shadow_ray(int x, int y, Slot lit, std::size_t light) const;
+    /// Whether `occluder` stands on that ray.
+    bool blocks(const Kernel::Shadow& ray, Slot occluder) const {
         const PrimitiveId id = scene_.id(occluder);
-        return kernel_.blocks(way, {id, id + 1});
+        return kernel_.blocks(ray, {id, id + 1});
     }
 
     /// The pixel's color, given what it shows (kNoSlot: the background) and which lights are not

@@ -1,4 +1,4 @@
-#include "fast/tile/referee.h"
+#include "fast/tile/exact_fallback.h"
 
 #include <cmath>
 #include <limits>
@@ -11,7 +11,8 @@ constexpr float kRounded = 2 * std::numeric_limits<float>::epsilon();
 
 }  // namespace
 
-std::optional<Referee::Nearest> Referee::nearer(int x, int y, Slot slot, Slot other) const {
+std::optional<ExactFallback::Nearest> ExactFallback::nearer(int x, int y, Slot slot,
+                                                            Slot other) const {
     const Ray ray = camera_.rays.ray(x, y);
     const ExactRay prepared = kernel_.prepare(ray);
     const auto hit = kernel_.hit_of(prepared, scene_.id(slot));
@@ -33,7 +34,8 @@ std::optional<Referee::Nearest> Referee::nearer(int x, int y, Slot slot, Slot ot
     return nearest;
 }
 
-Referee::Kernel::Shadow Referee::way_to_light(int x, int y, Slot lit, std::size_t light) const {
+ExactFallback::Kernel::Shadow ExactFallback::shadow_ray(int x, int y, Slot lit,
+                                                        std::size_t light) const {
     const ExactRay prepared = kernel_.prepare(camera_.rays.ray(x, y));
     const auto hit = kernel_.hit_of(prepared, scene_.id(lit));
     const Object& object = scene_.scene().objects[scene_.source(lit).object];

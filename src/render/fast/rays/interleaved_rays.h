@@ -1,9 +1,9 @@
 // No #pragma once: compiled once for each instruction set (see hwy/foreach_target.h).
-#if defined(NUVO_RENDER_FAST_FLIGHTS_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef NUVO_RENDER_FAST_FLIGHTS_H_
-#undef NUVO_RENDER_FAST_FLIGHTS_H_
+#if defined(NUVO_RENDER_FAST_INTERLEAVED_RAYS_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef NUVO_RENDER_FAST_INTERLEAVED_RAYS_H_
+#undef NUVO_RENDER_FAST_INTERLEAVED_RAYS_H_
 #else
-#define NUVO_RENDER_FAST_FLIGHTS_H_
+#define NUVO_RENDER_FAST_INTERLEAVED_RAYS_H_
 #endif
 
 #include <hwy/cache_control.h>
@@ -16,7 +16,7 @@
 #include <utility>
 
 #include "fast/rays/ray_block.h"
-#include "fast/rays/ray_flight.h"
+#include "fast/rays/ray_state.h"
 #include "fast/rays/single_ray.h"
 #include "fast/rays/single_ray_leaf.h"
 #include "fast/simd/lanes.h"
@@ -30,34 +30,34 @@ HWY_BEFORE_NAMESPACE();
 namespace nuvo::HWY_NAMESPACE {
 
 /// Walks batches of rays.
-class Flights {
+class InterleavedRays {
   public:
-    /// In flight at a time: more would fall out of the first cache.
-    static constexpr std::size_t kFlights = 16;
+    /// At a time: more would fall out of the first cache.
+    static constexpr std::size_t kInterleaved = 16;
 
-    explicit Flights(const SingleRays& rays) : rays_(rays), tree_(rays.tree()) {}
+    explicit InterleavedRays(const SingleRays& rays) : rays_(rays), tree_(rays.tree()) {}
 
     /// At most kRayBatch rays; found[i] takes what ray i meets first, or kNoSlot.
     void run(std::span<const Ray> batch, Slot* found) {
         batch_ = batch;
         found_ = found;
         next_ = 0;
-        for (RayFlight& flight : flights_) depart(flight);
+        for (RayState& state : states_) start_next(state);
         while (at_nodes_.count + at_leaves_.count > 0) {
-            // A few steps at a leaf or at a landing, with some left, would hardly overlap.
+            // A few steps at a leaf or at an end, with some left, would hardly overlap.
             do {
                 step_all();
-            } while (at_nodes_.count >= kFlights / 2);
+            } while (at_nodes_.count >= kInterleaved / 2);
             for (std::size_t count = at_leaves_.restart(), i = 0; i < count; ++i) {
-                RayFlight& flight = *at_leaves_.flight[i];
-                test_leaf(flight);
-                flight.take_next();
-                queue(flight);
+                RayState& state = *at_leaves_.state[i];
+                test_leaf(state);
+                state.take_next();
+                queue(state);
             }
-            for (std::size_t count = landed_.restart(), i = 0; i < count; ++i) {
-                RayFlight& flight = *landed_.flight[i];
-                land(flight);
-                depart(flight);
+            for (std::size_t count = finished_.restart(), i = 0; i < count; ++i) {
+                RayState& state = *finished_.state[i];
+                finish(state);
+                start_next(state);
             }
         }
     }
@@ -65,13 +65,13 @@ class Flights {
   private:
     static constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-    // The flights in one state. Read from the front while it is filled anew.
+    // The rays in one state. Read from the front while it is filled anew.
     struct Queue {
         std::size_t count = 0;
-        RayFlight* flight[kFlights + 1];
+        RayState* state[kInterleaved + 1];
         HWY_INLINE std::size_t restart() { return std::exchange(count, std::size_t{0}); }
-        HWY_INLINE void add(RayFlight& one, std::size_t once_or_not) {
-            flight[count] = &one;
+        HWY_INLINE void add(RayState& one, std::size_t once_or_not) {
+            state[count] = &one;
             count += once_or_not;
         }
     };
@@ -79,28 +79,28 @@ class Flights {
     // In two passes, so that none waits for what it has just computed itself.
     HWY_NOINLINE void step_all() {
         const std::size_t count = at_nodes_.restart();
-        for (std::size_t i = 0; i < count; ++i) step(*at_nodes_.flight[i]);
+        for (std::size_t i = 0; i < count; ++i) step(*at_nodes_.state[i]);
         for (std::size_t i = 0; i < count; ++i) {
-            RayFlight& flight = *at_nodes_.flight[i];
-            flight.take_next();
-            queue(flight);
+            RayState& state = *at_nodes_.state[i];
+            state.take_next();
+            queue(state);
         }
     }
 
     // By arithmetic: branches here would be coin tosses.
-    HWY_INLINE void queue(RayFlight& flight) {
-        static_assert(WideOctree::kLeaf == 1U << 31 && RayFlight::kLanded == 1U << 30);
-        const std::size_t next = flight.next;
+    HWY_INLINE void queue(RayState& state) {
+        static_assert(WideOctree::kLeaf == 1U << 31 && RayState::kFinished == 1U << 30);
+        const std::size_t next = state.next;
         const std::size_t leaf = next >> 31;
-        const std::size_t landed = (next >> 30 & 1) & ~leaf;
-        at_leaves_.add(flight, leaf);
-        landed_.add(flight, landed);
-        at_nodes_.add(flight, 1 - leaf - landed);
+        const std::size_t finished = (next >> 30 & 1) & ~leaf;
+        at_leaves_.add(state, leaf);
+        finished_.add(state, finished);
+        at_nodes_.add(state, 1 - leaf - finished);
         if (!prefetches_) return;
         const auto at_leaf = reinterpret_cast<std::uintptr_t>(tree_.leaves.data()) +
                              (next & ~std::size_t{WideOctree::kLeaf}) * sizeof(std::uint32_t);
         const auto at_node = reinterpret_cast<std::uintptr_t>(tree_.nodes.data()) +
-                             (next & ~std::size_t{RayFlight::kLanded}) * sizeof(WideNode);
+                             (next & ~std::size_t{RayState::kFinished}) * sizeof(WideNode);
         const std::uintptr_t place = ((at_leaf ^ at_node) & (0 - leaf)) ^ at_node;
         constexpr std::size_t kLine = 64;
         for (std::size_t at = 0; at < sizeof(WideNode); at += kLine)
@@ -108,33 +108,33 @@ class Flights {
     }
 
     // Lets the next ray of the batch take the place, if there is one.
-    HWY_INLINE void depart(RayFlight& flight) {
+    HWY_INLINE void start_next(RayState& state) {
         while (next_ < batch_.size()) {
             const std::size_t index = next_++;
             RayBlock& block = blocks_[index / RayBlock::kRays];
             const std::size_t lane = index % RayBlock::kRays;
             if (lane == 0) block.prepare(batch_.subspan(index), rays_.scene().frame(), tree_.reach);
             if ((block.valid >> lane & 1) != 0) {
-                flight.start(index, static_cast<std::uint32_t>(block.signs[lane]));
-                at_nodes_.add(flight, 1);
+                state.start(index, static_cast<std::uint32_t>(block.signs[lane]));
+                at_nodes_.add(state, 1);
                 return;
             }
-            found_[index] = rays_.by_force(batch_[index]);
+            found_[index] = rays_.brute_force(batch_[index]);
         }
     }
 
-    HWY_INLINE const RayBlock& block_of(const RayFlight& flight) const {
-        return blocks_[flight.index / RayBlock::kRays];
+    HWY_INLINE const RayBlock& block_of(const RayState& state) const {
+        return blocks_[state.index / RayBlock::kRays];
     }
 
     // One node: what the ray meets of it waits on a level of its own.
-    HWY_INLINE void step(RayFlight& flight) const {
-        const WideNode& node = tree_.nodes[flight.next];
-        const RayBlock& ray = block_of(flight);
-        const std::size_t lane = flight.index % RayBlock::kRays;
-        const FacesOnWay& faces = kFacesBySigns[flight.signs];
+    HWY_INLINE void step(RayState& state) const {
+        const WideNode& node = tree_.nodes[state.next];
+        const RayBlock& ray = block_of(state);
+        const std::size_t lane = state.index % RayBlock::kRays;
+        const FacesOnRay& faces = kFacesBySigns[state.signs];
         Floats first(0.0F);
-        Floats last(flight.best);
+        Floats last(state.best);
         for (int axis = 0; axis < 3; ++axis) {
             const Floats inverse(ray.inverse[axis][lane]);
             first = max(mul_add(Floats::load(node.low[0] + faces.near[axis]), inverse,
@@ -144,15 +144,15 @@ class Flights {
                                Floats(ray.far_add[axis][lane])),
                        last);
         }
-        const Ints order = lanes_of(node.order[flight.signs]);
+        const Ints order = lanes_of(node.order[state.signs]);
         const Floats entry = first.permuted(order);
-        RayFlight::Level& level = *flight.top;
+        RayState::Level& level = *state.top;
         entry.store(level.entry);
         Ints::load(reinterpret_cast<const std::int32_t*>(node.child))
             .permuted(order)
             .store(reinterpret_cast<std::int32_t*>(level.child));
         level.waiting = (entry <= last.permuted(order)).bits();
-        flight.top += static_cast<std::ptrdiff_t>(level.waiting != 0);
+        state.top += static_cast<std::ptrdiff_t>(level.waiting != 0);
     }
     static HWY_INLINE Ints lanes_of(const std::uint32_t* order) {
         alignas(64) static constexpr std::int32_t kShift[kWideLanes] = {
@@ -160,8 +160,8 @@ class Flights {
         return Ints::pairs(order) >> Ints::load(kShift);
     }
 
-    HWY_INLINE void test_leaf(RayFlight& flight) const {
-        const std::uint32_t* const words = tree_.leaves.data() + (flight.next & ~WideOctree::kLeaf);
+    HWY_INLINE void test_leaf(RayState& state) const {
+        const std::uint32_t* const words = tree_.leaves.data() + (state.next & ~WideOctree::kLeaf);
         WideLeafHead head;
         std::memcpy(&head, words, sizeof head);
         const Slot* slots = words + kLeafHeadWords;
@@ -170,39 +170,39 @@ class Flights {
         std::uint32_t others = head.others;
         if (others == WideLeafHead::kMany) others = *slots++;
         const Slot* const other_slots = slots + triangles + spheres;
-        const RayBlock& ray = block_of(flight);
-        const std::size_t lane = flight.index % RayBlock::kRays;
+        const RayBlock& ray = block_of(state);
+        const std::size_t lane = state.index % RayBlock::kRays;
         if (unit_of(head) < ray.least_unit[lane]) {
-            add_open(flight, slots, triangles + spheres + others);
+            add_open(state, slots, triangles + spheres + others);
             return;
         }
-        const RayAtLeaf at(ray, lane, head, flight.next_entry);
+        const RayAtLeaf at(ray, lane, head, state.next_entry);
         const auto* const centers = reinterpret_cast<const float*>(other_slots + others);
         const auto* const corners =
             reinterpret_cast<const std::uint16_t*>(centers + std::size_t{4} * spheres);
         for (std::uint32_t i = 0; i < triangles; i += kWideLanes)
-            take(flight, at,
+            take(state, at,
                  test_triangles(at, corners + i, triangles, triangles - i, rays_.bounds_scale()),
                  slots + i, triangles - i);
         for (std::uint32_t i = 0; i < spheres; i += kWideLanes)
-            take(flight, at,
+            take(state, at,
                  test_spheres(at, centers + i, spheres, spheres - i, rays_.bounds_scale()),
                  slots + triangles + i, spheres - i);
-        if (others != 0) add_open(flight, other_slots, others);
+        if (others != 0) add_open(state, other_slots, others);
     }
 
-    HWY_INLINE void take(RayFlight& flight, const RayAtLeaf& at, const LeafHits& hits,
+    HWY_INLINE void take(RayState& state, const RayAtLeaf& at, const LeafHits& hits,
                          const Slot* slots, std::uint32_t count) const {
         const std::uint32_t lanes = first_lanes(count);
         const Floats behind(at.behind);
-        const RayMask nearer = hits.low <= Floats(flight.best);
+        const RayMask nearer = hits.low <= Floats(state.best);
         const RayMask sure = hits.sure & (hits.low > behind);
         const RayMask perhaps = (hits.sure | hits.open) & nearer & (hits.high >= behind);
         const std::uint32_t kept = perhaps.bits() & lanes;
-        if (kept != 0) keep(flight, hits, slots, sure.bits(), kept);
+        if (kept != 0) keep(state, hits, slots, sure.bits(), kept);
     }
 
-    HWY_NOINLINE void keep(RayFlight& flight, const LeafHits& hits, const Slot* slots,
+    HWY_NOINLINE void keep(RayState& state, const LeafHits& hits, const Slot* slots,
                            std::uint32_t sure, std::uint32_t kept) const {
         alignas(64) float low[kWideLanes];
         alignas(64) float high[kWideLanes];
@@ -211,59 +211,59 @@ class Flights {
         for (; kept != 0; kept &= kept - 1) {
             const int lane = std::countr_zero(kept);
             const bool is_sure = (sure >> lane & 1) != 0;
-            if (low[lane] > flight.best) continue;
-            add(flight, {low[lane], high[lane], slots[lane], is_sure});
-            if (is_sure) flight.best = std::min(flight.best, high[lane]);
+            if (low[lane] > state.best) continue;
+            add(state, {low[lane], high[lane], slots[lane], is_sure});
+            if (is_sure) state.best = std::min(state.best, high[lane]);
         }
-        drop_levels(flight);
+        drop_levels(state);
     }
 
     // Forgets what waits behind the nearest sure hit.
-    HWY_INLINE void drop_levels(RayFlight& flight) const {
-        RayFlight::Level* free = flight.levels + 1;
-        for (RayFlight::Level* level = free; level != flight.top; ++level) {
-            level->waiting &= (Floats::load(level->entry) <= Floats(flight.best)).bits();
+    HWY_INLINE void drop_levels(RayState& state) const {
+        RayState::Level* free = state.levels + 1;
+        for (RayState::Level* level = free; level != state.top; ++level) {
+            level->waiting &= (Floats::load(level->entry) <= Floats(state.best)).bits();
             if (level->waiting == 0) continue;
             if (level != free) *free = *level;
             ++free;
         }
-        flight.top = free;
+        state.top = free;
     }
 
-    HWY_NOINLINE void add_open(RayFlight& flight, const Slot* slots, std::uint32_t count) const {
+    HWY_NOINLINE void add_open(RayState& state, const Slot* slots, std::uint32_t count) const {
         for (std::uint32_t i = 0; i < count; ++i)
-            add(flight, {-kInfinity, kInfinity, slots[i], false});
+            add(state, {-kInfinity, kInfinity, slots[i], false});
     }
 
-    void add(RayFlight& flight, const RayCandidate& candidate) const {
-        if (flight.candidate_count == RayFlight::kMaxCandidates) {
-            flight.drop_behind_best();
-            if (flight.candidate_count > RayFlight::kMaxCandidates / 2) decide(flight);
+    void add(RayState& state, const RayCandidate& candidate) const {
+        if (state.candidate_count == RayState::kMaxCandidates) {
+            state.drop_behind_best();
+            if (state.candidate_count > RayState::kMaxCandidates / 2) decide(state);
         }
-        flight.candidates[flight.candidate_count++] = candidate;
+        state.candidates[state.candidate_count++] = candidate;
     }
-    HWY_NOINLINE void decide(RayFlight& flight) const {
-        const Ray& ray = batch_[flight.index];
+    HWY_NOINLINE void decide(RayState& state) const {
+        const Ray& ray = batch_[state.index];
         const LocalRay local(ray, rays_.scene().frame(), tree_.reach);
-        const auto exact = rays_.decide(ray, local, {flight.candidates, flight.candidate_count});
-        flight.candidate_count = 0;
+        const auto exact = rays_.decide(ray, local, {state.candidates, state.candidate_count});
+        state.candidate_count = 0;
         if (!exact) return;
-        flight.candidates[flight.candidate_count++] = *exact;
-        flight.best = std::min(flight.best, exact->high);
+        state.candidates[state.candidate_count++] = *exact;
+        state.best = std::min(state.best, exact->high);
     }
 
-    HWY_INLINE void land(RayFlight& flight) const {
-        if (flight.candidate_count > 1) flight.drop_behind_best();
-        if (flight.candidate_count == 0) {
-            found_[flight.index] = kNoSlot;
+    HWY_INLINE void finish(RayState& state) const {
+        if (state.candidate_count > 1) state.drop_behind_best();
+        if (state.candidate_count == 0) {
+            found_[state.index] = kNoSlot;
             return;
         }
         // One primitive, sure in one leaf, is left: nothing to compare.
-        bool alone = flight.candidates[0].sure;
-        for (std::uint32_t i = 1; i < flight.candidate_count; ++i)
-            alone &= flight.candidates[i].slot == flight.candidates[0].slot;
-        if (!alone) decide(flight);
-        found_[flight.index] = flight.candidate_count == 0 ? kNoSlot : flight.candidates[0].slot;
+        bool alone = state.candidates[0].sure;
+        for (std::uint32_t i = 1; i < state.candidate_count; ++i)
+            alone &= state.candidates[i].slot == state.candidates[0].slot;
+        if (!alone) decide(state);
+        found_[state.index] = state.candidate_count == 0 ? kNoSlot : state.candidates[0].slot;
     }
 
     const SingleRays& rays_;
@@ -277,12 +277,12 @@ class Flights {
     std::size_t next_ = 0;
     Queue at_nodes_;
     Queue at_leaves_;
-    Queue landed_;
-    RayFlight flights_[kFlights];
+    Queue finished_;
+    RayState states_[kInterleaved];
     RayBlock blocks_[kRayBatch / RayBlock::kRays];
 };
 
 }  // namespace nuvo::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
-#endif  // NUVO_RENDER_FAST_FLIGHTS_H_
+#endif  // NUVO_RENDER_FAST_INTERLEAVED_RAYS_H_

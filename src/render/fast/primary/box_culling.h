@@ -1,9 +1,9 @@
 // No #pragma once: compiled once for each instruction set (see hwy/foreach_target.h).
-#if defined(NUVO_RENDER_FAST_BOX_SIEVE_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef NUVO_RENDER_FAST_BOX_SIEVE_H_
-#undef NUVO_RENDER_FAST_BOX_SIEVE_H_
+#if defined(NUVO_RENDER_FAST_BOX_CULLING_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef NUVO_RENDER_FAST_BOX_CULLING_H_
+#undef NUVO_RENDER_FAST_BOX_CULLING_H_
 #else
-#define NUVO_RENDER_FAST_BOX_SIEVE_H_
+#define NUVO_RENDER_FAST_BOX_CULLING_H_
 #endif
 
 #include <algorithm>
@@ -19,12 +19,12 @@
 HWY_BEFORE_NAMESPACE();
 namespace nuvo::HWY_NAMESPACE {
 
-class BoxSieve {
+class BoxCulling {
   public:
     static constexpr std::size_t kBatch = 16;
 
     // Boxes of larger pictures reach to the last pixel that a box can name.
-    explicit BoxSieve(const Tile& tile)
+    explicit BoxCulling(const Tile& tile)
         : x_(std::min(tile.x, kMostBoxPixels - kTileSide)),
           y_(std::min(tile.y, kMostBoxPixels - kTileSide)) {}
 
@@ -140,4 +140,4 @@ class BoxSieve {
 }  // namespace nuvo::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
-#endif  // NUVO_RENDER_FAST_BOX_SIEVE_H_
+#endif  // NUVO_RENDER_FAST_BOX_CULLING_H_

@@ -1,9 +1,9 @@
 // No #pragma once: compiled once for each instruction set (see hwy/foreach_target.h).
-#if defined(NUVO_RENDER_FAST_CURVED_LANES_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef NUVO_RENDER_FAST_CURVED_LANES_H_
-#undef NUVO_RENDER_FAST_CURVED_LANES_H_
+#if defined(NUVO_RENDER_FAST_SMOOTH_NORMALS_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef NUVO_RENDER_FAST_SMOOTH_NORMALS_H_
+#undef NUVO_RENDER_FAST_SMOOTH_NORMALS_H_
 #else
-#define NUVO_RENDER_FAST_CURVED_LANES_H_
+#define NUVO_RENDER_FAST_SMOOTH_NORMALS_H_
 #endif
 
 #include <array>
@@ -77,10 +77,10 @@ HWY_INLINE Doubles precise_reciprocal(const Doubles& v) {
 }
 
 /// Fills lanes of one block.
-class CurvedLanes {
+class SmoothNormalLanes {
   public:
-    CurvedLanes(const ShadingTables& tables, Tile& tile, ShadingScratch& scratch,
-                const BlockDirections& directions, int b)
+    SmoothNormalLanes(const ShadingTables& tables, Tile& tile, ShadingScratch& scratch,
+                      const BlockDirections& directions, int b)
         : tables_(tables),
           scene_(tables.scene),
           tile_(tile),
@@ -122,13 +122,13 @@ class CurvedLanes {
         return affine(dot(v, first_direction_), dot(v, tables_.camera.right),
                       dot(v, tables_.camera.down));
     }
-    // The lanes that are not `known` get NaN, and the referee.
+    // The lanes that are not `known` get NaN, and the fallback.
     HWY_INLINE void store_normal(const Floats (&n)[3], const RayMask& known, const Floats& error) {
         for (int i = 0; i < 3; ++i)
             select(known, n[i], Floats(kNan)).store(tile_.normal[i] + first_, lanes_);
         error.store(scratch_.normal_error + first_, lanes_);
         give_up(without(lanes_, known));
-        scratch_.curved[block_] = static_cast<std::uint16_t>(scratch_.curved[block_] | bits_);
+        scratch_.smooth[block_] = static_cast<std::uint16_t>(scratch_.smooth[block_] | bits_);
     }
     HWY_INLINE void give_up(const RayMask& lanes) {
         Floats(kInfinity).store(scratch_.diffuse_error + first_, lanes);
@@ -189,7 +189,7 @@ class CurvedLanes {
         store_normal(normal, known, Floats(kSphereNormalError));
         // P: of centre and sum, and the radius's times the normal's and two more.
         const float error =
-            (kSphereNormalError + 3 * kFloatRoundoff) * radius + tables_.bounds.curved_point_error;
+            (kSphereNormalError + 3 * kFloatRoundoff) * radius + tables_.bounds.sphere_point_error;
         store_point(point, known, error);
     }
 
@@ -207,16 +207,16 @@ class CurvedLanes {
         rays_.inverse_square = reciprocal(floats_from(rays_.square));
     }
 
-    // The primary stage has its normal from the referee.
+    // The primary stage has its normal from the fallback.
     HWY_INLINE void fill_ellipsoid(bool solid) {
         constexpr float kRootOf3 = 1.7320509F;  // rounded up
         Floats normal[3];
         Floats along(0.0F);
         for (int i = 0; i < 3; ++i) {
-            normal[i] = Floats::load(tile_.round_normal[i] + first_);
+            normal[i] = Floats::load(tile_.quadric_normal[i] + first_);
             along = mul_add(normal[i], directions_.at(i), along);
         }
-        const Floats error = Floats::load(tile_.round_error + first_) * Floats(kRootOf3);
+        const Floats error = Floats::load(tile_.quadric_error + first_) * Floats(kRootOf3);
         RayMask known = lanes_;
         if (!solid) {
             const float longest = tables_.rays.longest;
@@ -346,4 +346,4 @@ class CurvedLanes {
 }  // namespace nuvo::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
-#endif  // NUVO_RENDER_FAST_CURVED_LANES_H_
+#endif  // NUVO_RENDER_FAST_SMOOTH_NORMALS_H_
