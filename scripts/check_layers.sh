@@ -42,34 +42,38 @@ for room in $(ls include/nuvo src | grep -v : | sort -u); do
     for folder in "include/nuvo/$room" "src/$room"; do
         [ -d "$folder" ] || continue
         while IFS=: read -r file line text; do
+            [ -n "$file" ] || continue
             seen=$(sed -E 's|.*"nuvo/([^/"]+)/.*|\1|' <<<"$text")
             case " $room ${may_see[$room]} " in
                 *" $seen "*) ;;
                 *) fault "$file:$line: $room must not include $seen" ;;
             esac
-        done < <(grep -rnE "$include\"nuvo/" "$folder" || true)
+        done <<<"$(grep -rnE "$include\"nuvo/" "$folder" || true)"
         # Not through the back door of another room's private headers either.
         while IFS=: read -r file line _; do
-            fault "$file:$line: includes by a path with .."
-        done < <(grep -rnE "$include\"[^\"]*\.\./" "$folder" || true)
+            [ -z "$file" ] || fault "$file:$line: includes by a path with .."
+        done <<<"$(grep -rnE "$include\"[^\"]*\.\./" "$folder" || true)"
     done
 done
 
 below=""
 for folder in "${fast_folders[@]}"; do
     below+=" $folder"
+    [ -d "src/render/fast/$folder" ] || continue
     while IFS=: read -r file line text; do
+        [ -n "$file" ] || continue
         seen=$(sed -E 's|.*"fast/([^/"]+)/.*|\1|' <<<"$text")
         case "$below " in
             *" $seen "*) ;;
             *) fault "$file:$line: src/render/fast/$folder must not include $seen" ;;
         esac
-    done < <(grep -rnE "$include\"fast/" "src/render/fast/$folder" || true)
+    done <<<"$(grep -rnE "$include\"fast/" "src/render/fast/$folder" || true)"
 done
 
 for entry in "${libraries[@]}"; do
     read -r header room <<<"$entry"
-    mapfile -t users < <(grep -rlE "$include<$header[/.]" include src main.cpp | sort)
+    users=()
+    for file in $(grep -rlE "$include<$header[/.]" include src main.cpp | sort); do users+=("$file"); done
     case ${#users[@]} in
         1)
             case ${users[0]} in
@@ -82,15 +86,16 @@ done
 
 while IFS=: read -r file line _; do
     case $file in
-        src/render/fast/*) ;;
+        "" | src/render/fast/*) ;;
         *) fault "$file:$line: <hwy> belongs in src/render/fast" ;;
     esac
-done < <(grep -rnE "$include<hwy/" include src main.cpp || true)
+done <<<"$(grep -rnE "$include<hwy/" include src main.cpp || true)"
 
 known=$(printf '%s\n' "${libraries[@]}" | cut -d' ' -f1 | paste -sd'|')
 while IFS=: read -r file line text; do
-    fault "$file:$line: a third-party header that scripts/check_layers.sh does not know: $text"
-done < <(grep -rnE "$include<(boost|nlopt|nlohmann|zlib|geos|gtest|gmock|png|tbb)" include src main.cpp |
-    grep -vE "<($known)[/.]" || true)
+    [ -z "$file" ] ||
+        fault "$file:$line: a third-party header that scripts/check_layers.sh does not know: $text"
+done <<<"$(grep -rnE "$include<(boost|nlopt|nlohmann|zlib|geos|gtest|gmock|png|tbb)" include src main.cpp |
+    grep -vE "<($known)[/.]" || true)"
 
 [ $faults -eq 0 ] || exit 1

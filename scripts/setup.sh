@@ -5,7 +5,7 @@ nuvo_root=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)
 
 nuvo_packages=(cmake ninja-build g++ libboost-dev libboost-chrono-dev
     libboost-program-options-dev libnlopt-cxx-dev libgtest-dev nlohmann-json3-dev
-    zlib1g-dev libgeos-dev libhwy-dev)
+    zlib1g-dev libgeos-dev libhwy-dev python3)
 
 # The packages of "$@" that are not installed, one a line.
 nuvo_missing_packages() {
@@ -18,13 +18,14 @@ nuvo_missing_packages() {
 
 # Installs those of "$@" that are missing. Says what it does; silent when there is nothing to do.
 nuvo_install() {
-    local missing sudo=() log
+    local missing=() package sudo=() log
     if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
         command -v cmake >/dev/null && command -v ninja >/dev/null && return 0
         echo "No apt-get here: please install the equivalents of: $*" >&2
         return 1
     fi
-    mapfile -t missing < <(nuvo_missing_packages "$@")
+    # No process substitution here: it needs /proc, which a bare root may not have.
+    for package in $(nuvo_missing_packages "$@"); do missing+=("$package"); done
     [ ${#missing[@]} -eq 0 ] && return 0
     if [ "$(id -u)" -ne 0 ]; then
         if ! command -v sudo >/dev/null; then

@@ -77,6 +77,7 @@ void FileWriter::open_temporary() {
     if (path_.filename().empty()) fail(EISDIR);  // "", "folder/"
     struct stat old {};
     const bool replaces = ::stat(target_.c_str(), &old) == 0;
+    if (!replaces && errno != ENOENT) fail(errno);  // a name too long, a file in place of a folder
     if (replaces && ::access(target_.c_str(), W_OK) != 0) fail(errno);
     constexpr int kAttempts = 100;  // names left behind by killed processes of the same number
     for (int attempt = 0; attempt < kAttempts; ++attempt) {

@@ -20,6 +20,13 @@ class BadInput : public ProgramTest {
         for (const char* name : {"--file=bad", "--file=bad.x3d"})
             expect_refused({name, "--rep=1", "--res=8,8"}, kRefused, all);
     }
+    static bool takes_files(const fs::path& folder) {
+        std::string name = (folder / "nuvo-XXXXXX").string();
+        const int descriptor = ::mkstemp(name.data());
+        if (descriptor < 0) return false;
+        ::close(descriptor);
+        return fs::remove(name);
+    }
     static std::string sphere(const std::string& radius) {
         return "<X3D version='3.3'><Scene><Shape><Sphere radius='" + radius +
                "'/></Shape></Scene></X3D>";
@@ -112,11 +119,16 @@ TEST_F(BadInput, AFolderThatDoesNotExistTakesNoPicture) {
 
 TEST_F(BadInput, AFolderThatTakesNoFilesIsFoundBeforeALongRender) {
     put("a.x3d", kSmallScene);
+    put("file", "no folder");
+    // Whoever runs this, root, too, cannot make these; the last two where they are no plain
+    // folders, as they are in a root without them.
+    std::vector<std::string> outs{"file/a.bmp", std::string(300, 'a') + ".bmp"};
+    for (const char* folder : {"/proc", "/sys"})
+        if (!takes_files(folder)) outs.push_back(std::string(folder) + "/a.bmp");
     // The largest picture a million times: ends at once only if the folder is tried first.
-    for (const char* out : {"/proc/a.bmp", "/sys/a.bmp"})
-        expect_refused(
-            {"--file=a", "--res=16384,16384", "--rep=1000000", std::string("--out=") + out},
-            kCannotWrite, {std::string(out) + ": "});
+    for (const std::string& out : outs)
+        expect_refused({"--file=a", "--res=16384,16384", "--rep=1000000", "--out=" + out},
+                       kCannotWrite, {out + ": "});
 }
 
 TEST_F(BadInput, AFullDeviceIsAnError) {

@@ -71,8 +71,12 @@ class ProgramTest : public testing::Test {
         const int out_descriptor = ::open(out_path.c_str(), kFlags, 0600);
         const int err_descriptor = ::open(err_path.c_str(), kFlags, 0600);
         const rlimit memory{memory_limit, memory_limit};
+        // What never ends shall fail, not hold up the tests.
+        constexpr rlim_t kProcessorSeconds = 200;
+        const rlimit processor{kProcessorSeconds, kProcessorSeconds};
         if (::chdir(folder_.c_str()) == 0 && ::dup2(out_descriptor, STDOUT_FILENO) >= 0 &&
             ::dup2(err_descriptor, STDERR_FILENO) >= 0 &&
+            ::setrlimit(RLIMIT_CPU, &processor) == 0 &&
             (memory_limit == RLIM_INFINITY || ::setrlimit(RLIMIT_AS, &memory) == 0))
             ::execv(NUVO_PROGRAM, pointers.data());
         ::_exit(127);

@@ -96,9 +96,13 @@ TEST_F(FileWriterTest, AFolderIsNoTarget) {
 }
 
 TEST_F(FileWriterTest, AFolderThatTakesNoFilesIsFoundByTheCheck) {
-    // Nobody creates files under /proc, whatever the permission bits and the user say.
-    EXPECT_THROW(check_writable("/proc/nuvo.bmp"), WriteError);
-    EXPECT_FALSE(error_of("/proc/nuvo.bmp").empty());
+    // Nobody creates these, whatever the permission bits and the user say.
+    put("file", "no folder");
+    for (const fs::path& path : {folder_ / "file" / "a.bmp", folder_ / std::string(300, 'a')}) {
+        EXPECT_THROW(check_writable(path), WriteError);
+        EXPECT_FALSE(error_of(path).empty());
+    }
+    EXPECT_EQ(entries(), 1);
 }
 
 TEST_F(FileWriterTest, TheCheckLeavesNoTraceAndChangesNothing) {
