@@ -26,18 +26,21 @@ bool overlaps(const Triangle& triangle, const Bounds3& box) {
     const Point3 center = box.center();
     // Rounding of the centre, of the half widths and of the corners' differences.
     const double size = std::fmax(max_norm(box.min), max_norm(box.max));
-    const double slack = gamma(4) * size;
+    const double slack = gamma(4) * size + 4 * kUnderflow;
     const Vector3 half = box.widths() * 0.5 + Vector3{slack, slack, slack};
     const Vector3 v[3] = {triangle.a - center, triangle.b - center, triangle.c - center};
     const Vector3 edge[3] = {triangle.b - triangle.a, triangle.c - triangle.b,
                              triangle.a - triangle.c};
     const double reach = max_norm(v[0]) + max_norm(v[1]) + max_norm(v[2]) + max_norm(half);
 
-    // Plane: three products of three factors, each factor rounded.
+    // Plane: three products of three factors, each factor rounded. Below the normal range a product
+    // loses up to kUnderflow more: six that are multiplied once more, and some of sums.
+    const double underflow = 16 * kUnderflow * (reach + 1);
     const double edges = max_norm(edge[0]) * max_norm(edge[1]);
-    if (separated(cross(edge[0], edge[1]), v, half, gamma(40) * edges * reach)) return false;
+    if (separated(cross(edge[0], edge[1]), v, half, gamma(40) * edges * reach + underflow))
+        return false;
     for (const Vector3& e : edge) {
-        const double error = gamma(16) * max_norm(e) * reach;
+        const double error = gamma(16) * max_norm(e) * reach + underflow;
         if (separated({0, -e.z, e.y}, v, half, error) ||
             separated({e.z, 0, -e.x}, v, half, error) || separated({-e.y, e.x, 0}, v, half, error))
             return false;
@@ -57,7 +60,10 @@ bool overlaps(const Sphere& sphere, const Bounds3& box) {
         farthest += across * across;
     }
     const double squared = sphere.radius * sphere.radius;
-    return nearest <= squared * (1 + gamma(8)) && farthest >= squared * (1 - gamma(8));
+    // Eight products at most lose something to underflow.
+    constexpr double kLost = 8 * kUnderflow;
+    return nearest <= squared * (1 + gamma(8)) + kLost &&
+           farthest + kLost >= squared * (1 - gamma(8));
 }
 
 }  // namespace nuvo

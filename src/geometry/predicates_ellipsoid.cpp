@@ -119,9 +119,9 @@ bool blocks(const ExactRay& shadow, double end, double origin_error, const Ellip
     ++counts.wider;
     ++counts.exact;
     const ExactQuadratic exact = exact_quadratic(shadow, ellipsoid);
-    const bool touches = origin_on_it || compare(abs(exact.c), exact_touch_band(shadow, ellipsoid,
-                                                                                origin_error)) <= 0;
-    return exact_blocks(exact, end, touches);
+    return exact_blocks(exact, end, origin_place(exact, origin_on_it, [&] {
+                            return exact_touch_band(shadow, ellipsoid, origin_error);
+                        }));
 }
 
 namespace {

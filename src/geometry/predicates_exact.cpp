@@ -104,7 +104,7 @@ std::optional<SphereHit> exact_hit(const ExactQuadratic& q) {
     return SphereHit{root_from(far), SphereRoot::kFar};
 }
 
-bool exact_blocks(const ExactQuadratic& q, double end, bool touches) {
+bool exact_blocks(const ExactQuadratic& q, double end, OriginPlace place) {
     if (q.empty || q.a.sign() == 0) return false;
     const int b = q.b.sign();
     const bool endless = std::isinf(end);
@@ -112,15 +112,16 @@ bool exact_blocks(const ExactQuadratic& q, double end, bool touches) {
         return (Exact(end) * (Exact(end) * q.a + Exact(2) * q.b) + q.c).sign() > 0;
     };
     // See rounded_blocks().
-    if (touches) return b < 0 && (endless || end_is_outside());
-    if (q.c.sign() > 0) {
-        if (b >= 0 || q.discriminant().sign() < 0) return false;
-        if (endless) return true;
-        // The near root lies before the end iff the end lies inside, or behind the vertex.
-        const Exact slope = Exact(end) * q.a + q.b;
-        return slope.sign() > 0 || (Exact(end) * (slope + q.b) + q.c).sign() < 0;
-    }
-    return endless || end_is_outside();
+    if (place == OriginPlace::kOnIt) return b < 0 && (endless || end_is_outside());
+    const bool outside = q.c.sign() > 0;
+    const bool touches = place == OriginPlace::kTouching;
+    if (!outside) return (!touches || b < 0) && (endless || end_is_outside());
+    if (b >= 0 || q.discriminant().sign() < 0) return false;
+    if (endless) return true;
+    const int slope = (Exact(end) * q.a + q.b).sign();
+    if (touches) return slope > 0 && end_is_outside();
+    // The near root lies before the end iff the end lies inside, or behind the vertex.
+    return slope > 0 || (Exact(end) * (Exact(end) * q.a + Exact(2) * q.b) + q.c).sign() < 0;
 }
 
 Vec3<WideDouble> at_root(const ExactQuadratic& q, SphereRoot which, const ExactVector& p,

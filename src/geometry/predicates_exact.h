@@ -39,7 +39,15 @@ Exact exact_touch_band(const ExactRay& ray, const Sphere& sphere, double origin_
 Exact exact_touch_band(const ExactRay& ray, const Ellipsoid& ellipsoid, double origin_error);
 
 std::optional<SphereHit> exact_hit(const ExactQuadratic& q);
-bool exact_blocks(const ExactQuadratic& q, double end, bool touches);
+/// What the origin has to do with the surface: it stands for a point of it, it may, or it does not.
+enum class OriginPlace : std::uint8_t { kOnIt, kTouching, kClear };
+/// `touch_band()`: what the origin's error can add to |c|.
+template <typename TouchBand>
+OriginPlace origin_place(const ExactQuadratic& q, bool on_it, TouchBand&& touch_band) {
+    if (on_it) return OriginPlace::kOnIt;
+    return compare(abs(q.c), touch_band()) <= 0 ? OriginPlace::kTouching : OriginPlace::kClear;
+}
+bool exact_blocks(const ExactQuadratic& q, double end, OriginPlace place);
 /// p + t r at the root, to a few roundoffs of p's and r's shares (p - b / a r and sqrt(D) / a r).
 Vec3<WideDouble> at_root(const ExactQuadratic& q, SphereRoot which, const ExactVector& p,
                          const ExactVector& r);

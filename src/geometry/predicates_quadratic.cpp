@@ -16,6 +16,26 @@ RootPart root_part(const RoundedQuadratic& q) {
     return {value, value * (0.5625 * relative + q.a_relative + gamma(4))};
 }
 
+Decision decide(double value, double error) {
+    return value > error ? Decision::kYes : value < -error ? Decision::kNo : Decision::kUnsure;
+}
+
+/// Where the end of the way lies, with error bounds.
+struct RoundedEnd {
+    bool endless;
+    double power, power_error;  ///< > 0: outside of the surface
+    double slope, slope_error;  ///< > 0: beyond the vertex
+};
+RoundedEnd rounded_end(const RoundedQuadratic& q, double end) {
+    if (std::isinf(end)) return {true, 0, 0, 0, 0};
+    const double ea = end * q.a;
+    const double slope_error = ea * q.a_relative + q.b_error + gamma(2) * (ea + std::fabs(q.b));
+    return {false, end * (ea + 2 * q.b) + q.c,
+            end * (2 * slope_error + gamma(4) * (ea + 2 * std::fabs(q.b))) + q.c_error +
+                gamma(2) * std::fabs(q.c),
+            ea + q.b, slope_error};
+}
+
 }  // namespace
 
 Decision rounded_hit(const RoundedQuadratic& q, SphereHit& hit) {
@@ -43,35 +63,45 @@ Decision rounded_hit(const RoundedQuadratic& q, SphereHit& hit) {
     return Decision::kYes;
 }
 
-Decision rounded_blocks(const RoundedQuadratic& q, double end, double band, bool touches) {
-    const auto decide = [](double value, double error) {
-        return value > error ? Decision::kYes : value < -error ? Decision::kNo : Decision::kUnsure;
-    };
-    const bool endless = std::isinf(end);
+namespace {
+
+/// b < 0, and the line meets the surface, all of it before an end that lies outside.
+Decision passes_through(const RoundedQuadratic& q, const RoundedEnd& end) {
+    const Decision enters = decide(-q.b, q.b_error);
+    if (enters != Decision::kYes) return enters;
+    const Decision meets = decide(q.depth, q.depth_error);
+    if (meets == Decision::kNo || end.endless) return meets;
+    const Decision outside = decide(end.power, end.power_error);
+    const Decision beyond = decide(end.slope, end.slope_error);
+    if (outside == Decision::kNo) return Decision::kNo;
+    if (outside == Decision::kYes && beyond == Decision::kNo) return Decision::kNo;
+    const bool all = meets == Decision::kYes && outside == meets && beyond == meets;
+    return all ? Decision::kYes : Decision::kUnsure;
+}
+
+}  // namespace
+
+Decision rounded_blocks(const RoundedQuadratic& q, double end_t, double band, bool on_it) {
+    const RoundedEnd end = rounded_end(q, end_t);
     const double size = std::fabs(q.c);
-    if (!touches && !(size > band + q.c_error)) {
-        if (!(size + q.c_error < band)) return Decision::kUnsure;
-        touches = true;
-    }
-    const double ea = endless ? 0 : end * q.a;
-    const double slope_error = ea * q.a_relative + q.b_error + gamma(2) * (ea + std::fabs(q.b));
-    const double value = endless ? 0 : end * (ea + 2 * q.b) + q.c;
-    const double value_error =
-        endless ? 0
-                : end * (2 * slope_error + gamma(4) * (ea + 2 * std::fabs(q.b))) + q.c_error +
-                      gamma(2) * size;
-    if (touches) {
+    if (on_it) {
         // The lit point itself has c = 0, so its other root lies in (0, end) iff b < 0 and the end
-        // lies outside: value > 0, which does not depend on how the point was rounded.
+        // lies outside, which does not depend on how the point was rounded.
         const Decision enters = decide(-q.b, q.b_error);
-        if (enters != Decision::kYes || endless) return enters;
-        return decide(value, value_error);
+        if (enters != Decision::kYes || end.endless) return enters;
+        return decide(end.power, end.power_error);
     }
-    if (q.c < 0) return endless ? Decision::kYes : decide(value, value_error);
+    if (!(size > band + q.c_error)) {
+        if (!(size + q.c_error < band)) return Decision::kUnsure;
+        return passes_through(q, end);
+    }
+    if (q.c < 0) return end.endless ? Decision::kYes : decide(end.power, end.power_error);
     if (q.b > q.b_error || q.depth < -q.depth_error) return Decision::kNo;
     if (!(q.b < -q.b_error && q.depth > q.depth_error)) return Decision::kUnsure;
-    if (endless || ea + q.b > slope_error || value < -value_error) return Decision::kYes;
-    return ea + q.b < -slope_error && value > value_error ? Decision::kNo : Decision::kUnsure;
+    if (end.endless || end.slope > end.slope_error || end.power < -end.power_error)
+        return Decision::kYes;
+    return end.slope < -end.slope_error && end.power > end.power_error ? Decision::kNo
+                                                                       : Decision::kUnsure;
 }
 
 RoundedOffset rounded_offset(const RoundedQuadratic& q, SphereRoot which) {

@@ -26,8 +26,8 @@ enum class Decision : std::uint8_t { kNo, kYes, kUnsure };
 
 /// kYes fills `hit`.
 Decision rounded_hit(const RoundedQuadratic& q, SphereHit& hit);
-/// `band`: what the origin's error can add to |c|; `touches`: known to lie on the surface.
-Decision rounded_blocks(const RoundedQuadratic& q, double end, double band, bool touches);
+/// `band`: what the origin's error can add to |c|; `on_it`: the origin stands for a point of it.
+Decision rounded_blocks(const RoundedQuadratic& q, double end, double band, bool on_it);
 
 /// f + t g with its error in 2-norm.
 struct RoundedOffset {

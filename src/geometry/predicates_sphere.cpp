@@ -64,9 +64,9 @@ bool sphere_blocks(const ExactRay& shadow, double end, double origin_error, cons
     ++counts.wider;
     ++counts.exact;
     const ExactQuadratic exact = exact_quadratic(shadow, sphere);
-    const bool touches =
-        origin_on_it || compare(abs(exact.c), exact_touch_band(shadow, sphere, origin_error)) <= 0;
-    return exact_blocks(exact, end, touches);
+    return exact_blocks(exact, end, origin_place(exact, origin_on_it, [&] {
+                            return exact_touch_band(shadow, sphere, origin_error);
+                        }));
 }
 
 }  // namespace detail

@@ -6,11 +6,22 @@
 namespace nuvo {
 
 double path_error_bound(const Bounds3& root) {
-    const double size = std::fmax(max_norm(root.min), max_norm(root.max));
-    return 16 * kUnitRoundoff * size;
+    return 16 * kUnitRoundoff * detail::size_of(root) + 32 * kUnderflow;
 }
 
 namespace detail {
+
+// Halfway between the exponents of the largest distance and of the root, so that the largest t does
+// not overflow and the root's are not subnormal.
+int scale_direction(const Bounds3& root, const Point3& origin, Vector3& direction) {
+    const double size = size_of(root);
+    const int wanted = (std::ilogb(std::fmax(size, kUnderflow)) +
+                        std::ilogb(std::fmax(std::fmax(size, max_norm(origin)), kUnderflow))) /
+                       2;
+    const int shift = std::clamp(wanted, -500, 500) - std::ilogb(max_norm(direction));
+    for (int axis = 0; axis < 3; ++axis) direction[axis] = std::ldexp(direction[axis], shift);
+    return shift;
+}
 
 bool approach(const Ray& ray, const Bounds3& root, Point3& origin, double& base) {
     const ExactVector direction(ray.direction);

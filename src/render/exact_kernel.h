@@ -117,6 +117,10 @@ class ExactKernelOf {
             if (blocks_before(shadow, shadow.end, id)) return true;
         return false;
     }
+    /// Whether the primitive that is lit stands in its own light.
+    bool blocks_itself(const Shadow& shadow) const {
+        return shadow.from && blocks_before(shadow, shadow.end, *shadow.from);
+    }
     /// Where the shadow ray first meets the range, before or behind the light; infinity: never.
     double shadow_t(const Shadow& shadow, PrimitiveRange range) const {
         double nearest = kInfinity;

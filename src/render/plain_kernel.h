@@ -96,6 +96,8 @@ class PlainKernel {
     bool blocks(const Shadow& shadow, PrimitiveRange range) const {
         return shadow_t(shadow, range) < shadow.end;
     }
+    /// Its own leaf finds out, rightly or wrongly.
+    bool blocks_itself(const Shadow&) const { return false; }
     /// Where the shadow ray first meets the range, before or behind the light; infinity: never.
     T shadow_t(const Shadow& shadow, PrimitiveRange range) const {
         T nearest = kInfinity;

@@ -81,9 +81,12 @@ class ExactSearch {
 
     /// Starts in the leaf that holds the shadow ray's origin, which needs no search. [5.3.2]
     bool occluded(const typename Kernel::Shadow& shadow) {
-        bool blocked = false;
+        // Not left to the leaves: its rounded point may lie outside of all that list it.
+        const bool by_itself = kernel_.blocks_itself(shadow);
+        bool blocked = by_itself;
         walk_(kernel_.walk_ray(shadow.ray), shadow.end, [&](const Node& leaf, double exit) {
             counter_.count_tests(leaf.item_count);
+            if (by_itself) return true;
             for (ItemId item : octree_.contents(leaf)) {
                 blocked = kernel_.blocks(shadow, of_item(item));
                 if (blocked) return true;

@@ -162,14 +162,16 @@ inline bool blocks(const std::optional<Ball>& ball, double end, double error, bo
     const RationalVector& reach = ball->reach;
     const RationalVector size{abs(ball->f.x), abs(ball->f.y), abs(ball->f.z)};
     const Rational band = 2 * e * dot(reach, size) + e * e * dot(reach, reach);
-    if (on_it || abs(ball->c()) <= band) {
+    const std::optional<Roots> found = roots(*ball);
+    if (on_it) {
         // From the lit point itself the other root is reached before the end iff b < 0 and the end
         // lies outside.
         if (ball->b() >= 0 || std::isinf(end)) return ball->b() < 0;
         const RationalVector last = ball->f + ball->g * Rational(end);
         return dot(last, last) > ball->r2;
     }
-    const std::optional<Roots> found = roots(*ball);
+    // What touches blocks where the way leads inwards and, as it stands, comes out before the end.
+    if (abs(ball->c()) <= band) return found && ball->b() < 0 && before_end(found->far);
     return found && (before_end(found->near) || before_end(found->far));
 }
 

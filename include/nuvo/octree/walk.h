@@ -59,10 +59,23 @@ inline std::optional<Entry> slab_entry(const Ray& ray, const Bounds3& box) {
     return entry;
 }
 
+inline double size_of(const Bounds3& root) {
+    return std::fmax(max_norm(root.min), max_norm(root.max));
+}
+
 /// Further out than the path's error allows an origin of the walk to be.
 inline bool is_far(const Point3& point, const Bounds3& root) {
-    return max_norm(point) > 2 * std::fmax(max_norm(root.min), max_norm(root.max));
+    return max_norm(point) > 2 * size_of(root);
 }
+
+/// Of such sizes no t of the walk overflows, or is subnormal to any effect. [numerics: the walk]
+inline bool is_ordinary(double size) { return size > 0x1p-400 && size < 0x1p400; }
+inline bool is_ordinary(const Ray& ray) {
+    return is_ordinary(max_norm(ray.direction)) && max_norm(ray.origin) < 0x1p400;
+}
+/// Scales `direction` by a power of two so that the same holds for a ray of any size; returns the
+/// exponent.
+int scale_direction(const Bounds3& root, const Point3& origin, Vector3& direction);
 
 /// For an origin so far away that one step to the root ends far from it: the ray's point before the
 /// root, found step by step in exact arithmetic, and its t. False when the ray passes the root.
@@ -77,12 +90,18 @@ bool approach(const Ray& ray, const Bounds3& root, Point3& origin, double& base)
 template <typename Locator>
 class ExactWalk {
   public:
-    explicit ExactWalk(const Octree& octree) : octree_(octree), nodes_(octree.nodes()) {}
+    explicit ExactWalk(const Octree& octree)
+        : octree_(octree),
+          nodes_(octree.nodes()),
+          ordinary_size_(detail::is_ordinary(detail::size_of(octree.root().voxel.bounds))) {}
 
     template <typename Visit>
     void operator()(const Ray& ray, double t_end, Visit&& visit) {
         direction_ = ray.direction;
-        if (!enter(ray)) return;
+        shift_ = 0;
+        if (!(ordinary_size_ && detail::is_ordinary(ray)))
+            shift_ = detail::scale_direction(nodes_[0].voxel.bounds, ray.origin, direction_);
+        if (!enter({ray.origin, direction_})) return;
         path_[0] = 0;
         level_ = 0;
         for (;;) {
@@ -90,7 +109,7 @@ class ExactWalk {
             const Node& leaf = nodes_[path_[level_]];
             const Bounds3& box = leaf.voxel.bounds;
             const auto [axis, t] = exit_of(box);
-            const double exit = lower_bound_of(t);
+            const double exit = on_ray(lower_bound_of(t));
             if (visit(leaf, exit) || exit >= t_end || axis < 0) return;
             cross(box, axis, t);
             if (!climb()) return;
@@ -164,7 +183,12 @@ class ExactWalk {
     }
 
     double lower_bound_of(double t) const {
-        return (base_ + t) - 8 * kUnitRoundoff * (base_ + std::fabs(t));
+        return (base_ + t) - 8 * kUnitRoundoff * (base_ + std::fabs(t)) - 4 * kUnderflow;
+    }
+    // A t of the walk in units of the ray's own direction, rounded down.
+    double on_ray(double t) const {
+        if (shift_ == 0 || t == kInfinity) return t;
+        return std::min(std::ldexp(t, shift_) - kUnderflow, std::numeric_limits<double>::max());
     }
 
     // Onto the face that is left; the other axes follow the ray without ever going back.
@@ -199,7 +223,9 @@ class ExactWalk {
 
     const Octree& octree_;
     std::span<const Node> nodes_;
-    Vector3 direction_;
+    bool ordinary_size_;
+    Vector3 direction_;  // the ray's times 2^shift_
+    int shift_ = 0;
     Point3 origin_;    // of the walk: the ray's own, or its entry into the root
     double base_ = 0;  // t of the walk's origin on the ray
     Point3 position_;
