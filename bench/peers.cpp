@@ -85,7 +85,7 @@ Scene load(const std::string& file) {
     limits.elements = 50'000'000;
     limits.attributes = 50'000'000;
     limits.shapes = 10'000'000;
-    return x3d::read_file(file, x3d::Headlight::kAuto, limits);
+    return x3d::read_file(file, {.limits = limits});
 }
 
 void write_ours(app::JsonWriter& json, const OurSamples& samples) {

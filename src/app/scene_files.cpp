@@ -18,17 +18,23 @@ bool is_same_file(const fs::path& a, const fs::path& b) {
     return a.lexically_normal() == b.lexically_normal() && !fs::exists(a, error);
 }
 
+std::string one_line(std::string text) {
+    for (char& c : text)
+        if (static_cast<unsigned char>(c) < ' ') c = '?';
+    return text;
+}
+
 }  // namespace
 
 LoadedScene load(const Options& options) {
     LoadedScene loaded;
     loaded.path = find_scene(options.file);
     const StageStopwatch watch;
-    loaded.scene =
-        x3d::read_file(loaded.path, options.headlight, options.limits, options.viewpoint);
+    loaded.scene = x3d::read_file(
+        loaded.path, {options.limits, options.headlight, options.viewpoint, options.strict});
     loaded.parse_seconds = watch.seconds();
     for (const std::string& warning : loaded.scene.warnings)
-        std::cerr << "nuvo: warning: " << warning << '\n';
+        std::cerr << "nuvo: warning: " + one_line(loaded.path.string() + ": " + warning) + '\n';
     return loaded;
 }
 

@@ -22,7 +22,7 @@ bool is_material(std::string_view name) {
 
 /// X3D 4's material for the back side only.
 bool is_back(const Element& child) {
-    const std::string* field = child.find("containerField");
+    const std::string_view* field = child.find("containerField");
     return field != nullptr && *field == "backMaterial";
 }
 
@@ -45,9 +45,9 @@ std::optional<std::uint32_t> MaterialTable::look_up(const Element* appearance) {
     const Element* material = nullptr;
     if (appearance != nullptr) {
         for (const Element& child : appearance->children) {
-            if (is_material(child.name) && material == nullptr && !is_back(child))
+            if (is_material(child.kind()) && material == nullptr && !is_back(child))
                 material = &child.node();
-            else if (!is_silent(child.name))
+            else if (!is_silent(child.kind()))
                 warn_not_drawn(child, messages_);
         }
     }
@@ -75,7 +75,7 @@ std::optional<std::uint32_t> MaterialTable::read(const Element& element) {
         read_phong(fields, material);
     }
     for (const Element& child : element.children)
-        if (!is_silent(child.name)) warn_not_drawn(child, messages_);
+        if (!is_silent(child.kind())) warn_not_drawn(child, messages_);
     const double transparency = fields.clamped_number("transparency", 0, kUnit);
     if (transparency == 1) {
         fields.warn("transparency", "of 1: not drawn");

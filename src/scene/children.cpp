@@ -1,5 +1,6 @@
 #include "children.h"
 
+#include <algorithm>
 #include <vector>
 
 #include "node_names.h"
@@ -9,8 +10,7 @@ namespace nuvo::x3d {
 namespace {
 
 bool is_node_to_draw(const Element& child) {
-    return !is_silent(child.name) && child.name != "ROUTE" && child.name != "IMPORT" &&
-           child.name != "EXPORT";
+    return !is_silent(child.name) && child.name != "ROUTE" && child.name != "IMPORT";
 }
 
 std::size_t count_drawn(const Element& parent) {
@@ -34,8 +34,20 @@ double local_distance(const Placement& placement, const Point3& center, const Po
 }  // namespace
 
 bool is_proxy(const Element& child) {
-    const std::string* field = child.find("containerField");
+    const std::string_view* field = child.find("containerField");
     return field != nullptr && *field == "proxy";
+}
+
+std::vector<bool> drawn_layers(const Element& node, const Fields& fields) {
+    std::vector<std::int32_t> order = fields.integers("order");
+    if (order.empty()) order = {0};
+    std::vector<bool> drawn;
+    std::int32_t layer = 0;
+    for (const Element& child : node.children) {
+        if (is_node_to_draw(child)) ++layer;
+        drawn.push_back(std::find(order.begin(), order.end(), layer) != order.end());
+    }
+    return drawn;
 }
 
 const Element* drawn_child(const Element& parent, std::size_t number) {
@@ -46,8 +58,8 @@ const Element* drawn_child(const Element& parent, std::size_t number) {
 
 const Element* chosen_child(const Element& node, const Fields& fields) {
     const std::vector<std::int32_t> choice = fields.integers("whichChoice");
-    if (choice.size() > 1) fields.fail("whichChoice", "is more than one number");
-    if (choice.empty() || choice[0] < 0) return nullptr;
+    if (choice.size() > 1) fields.reject("whichChoice", "is more than one number");
+    if (choice.size() != 1 || choice[0] < 0) return nullptr;
     return drawn_child(node, static_cast<std::size_t>(choice[0]));
 }
 
@@ -70,11 +82,14 @@ std::size_t count_shapes(const Element& element, const Documents& documents) {
     while (!pending.empty()) {
         const Element& node = pending.back()->node();
         pending.pop_back();
-        if (node.name == "Shape") ++count;
+        if (node.name == "Shape") {
+            ++count;
+            continue;
+        }
         if (const Document* document = documents.inlined(node); document != nullptr)
             pending.push_back(document->scene);
         for (const Element& child : node.children)
-            if (!is_declaration(child)) pending.push_back(&child);
+            if (leads_to_shapes(child)) pending.push_back(&child);
     }
     return count;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include "documents.h"
 #include "fields.h"
@@ -10,6 +11,9 @@ namespace nuvo::x3d {
 
 /// Collision's proxy, which is not to be drawn.
 bool is_proxy(const Element& child);
+
+/// For each child of a LayerSet whether it is drawn: its `order` names it, counting from 1.
+std::vector<bool> drawn_layers(const Element& node, const Fields& fields);
 
 /// The child of that number among those that are nodes to draw (no metadata, declarations or
 /// routes); null where there are fewer.

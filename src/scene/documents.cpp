@@ -9,7 +9,9 @@
 
 #include "fields.h"
 #include "gunzip.h"
+#include "linker.h"
 #include "node_names.h"
+#include "other_formats.h"
 #include "xml.h"
 
 namespace nuvo::x3d {
@@ -25,7 +27,7 @@ constexpr std::size_t kUnpackedRatio = 16;
 
 /// "3.0" and the like; anything else counts as no version, with a warning.
 Version read_version(const Element& root, Messages& messages) {
-    const std::string* text = root.find("version");
+    const std::string_view* text = root.find("version");
     if (text == nullptr) return {};
     const char* end = text->data() + text->size();
     Version version;
@@ -38,12 +40,28 @@ Version read_version(const Element& root, Messages& messages) {
     return {};
 }
 
+/// Finds the declarations of prototypes, but for those inside others; of a name the first.
+void find_declarations(Document& document) {
+    std::vector<const Element*> pending{document.scene};
+    while (!pending.empty()) {
+        const Element& element = *pending.back();
+        pending.pop_back();
+        if (element.next != nullptr) pending.push_back(element.next);
+        if (is_declaration(element)) {
+            document.declarations.try_emplace(element.text("name"), &element);
+            if (document.first_declaration == nullptr) document.first_declaration = &element;
+        } else if (!element.children.empty()) {
+            pending.push_back(element.children.first);
+        }
+    }
+}
+
 /// The Scene of the thesis' bare form (the root itself) or of an X3D root.
 const Element& find_scene(const Element& root, Messages& messages) {
     if (root.name == "Scene") return root;
     if (root.name != "X3D") {
         refuse_misspelt(root, messages);
-        messages.fail(root, "", "the root element is neither X3D nor Scene");
+        messages.refuse(root, "", "the root element is neither X3D nor Scene");
     }
     const Element* scene = nullptr;
     for (const Element& child : root.children) {
@@ -51,10 +69,10 @@ const Element& find_scene(const Element& root, Messages& messages) {
             if (!is_silent(child.name)) warn_not_drawn(child, messages);
             continue;
         }
-        if (scene != nullptr) messages.fail(child, "", "a second Scene");
+        if (scene != nullptr) messages.refuse(child, "", "a second Scene");
         scene = &child;
     }
-    if (scene == nullptr) messages.fail(root, "", "has no Scene");
+    if (scene == nullptr) messages.refuse(root, "", "has no Scene");
     return *scene;
 }
 
@@ -79,27 +97,20 @@ bool is_below(const fs::path& path, const fs::path& folder) {
 const Document& Documents::read_file(const fs::path& path) {
     std::error_code error;
     const fs::path canonical = fs::canonical(path, error);
-    const fs::path folder = path.parent_path();
-    Document* document = nullptr;
-    {
-        const std::string text = read_bytes(path);  // gone before the scene is built
-        document = &parse(text, path.string());
-    }
+    // The text is gone before the scene is built.
+    Document& document = parse(read_bytes(path), path.string(), path.parent_path());
     if (!error) {
         home_ = canonical.parent_path();
         open_.push_back(canonical.string());
-        load_inlines(*document, folder);
-        open_.pop_back();
-    } else {
-        load_inlines(*document, {});
     }
-    return *document;
+    link(document);
+    return document;
 }
 
 const Document& Documents::read_text(std::string_view text, const std::string& name) {
     Document& document =
-        is_gzip(text) ? parse(gunzip(text, name, kUnpackedBytes), name) : parse(text, name);
-    load_inlines(document, {});
+        is_gzip(text) ? parse(gunzip(text, name, kUnpackedBytes), name, {}) : parse(text, name, {});
+    link(document);
     return document;
 }
 
@@ -138,35 +149,35 @@ std::string Documents::read_bytes(const fs::path& path) {
     return text;
 }
 
-Document& Documents::parse(std::string_view text, const std::string& name) {
-    Document& document = documents_.emplace_back();
-    document.name = name;
-    document.root = parse_xml(text, name, limits_, document.names);
-    messages_.add_document(name, document.root);
-    document.scene = &find_scene(document.root, messages_);
-    if (document.root.name == "X3D") document.version = read_version(document.root, messages_);
+Document& Documents::parse(std::string_view text, const std::string& name, const fs::path& folder) {
+    refuse_other_formats(text, name);
+    Document& document = documents_.emplace_back(name, folder, messages_.is_strict());
+    document.root = &parse_xml(text, name, limits_, document.names, document.arena);
+    messages_.add_document(name, *document.root);
+    document.names.warn(messages_);
+    document.scene = &find_scene(*document.root, messages_);
+    if (document.root->name == "X3D") {
+        document.version = read_version(*document.root, messages_);
+        document.units = read_units(*document.root, messages_);
+    }
+    find_declarations(document);
     return document;
 }
 
-void Documents::load_inlines(Document& document, const fs::path& folder) {
-    InlineExtents extents;
-    std::vector<const Element*> pending{&document.root};
-    while (!pending.empty()) {
-        const Element& element = *pending.back();
-        pending.pop_back();
-        if (element.name == "LOD") has_levels_ = true;
-        if (element.name == "Inline" && element.find("USE") == nullptr) {
-            const Document* loaded = load_inline(element, folder);
-            if (loaded != nullptr) {
-                inlined_[&element] = loaded;
-                extents[&element] = loaded->extent;
-            }
-        }
-        // From the first to the last, so that the warnings keep the document's order.
-        for (auto child = element.children.rbegin(); child != element.children.rend(); ++child)
-            if (!is_declaration(*child)) pending.push_back(&*child);
-    }
-    document.extent = resolve_uses(document.root, extents, limits_, messages_);
+void Documents::link(Document& document) {
+    Linker(*this, document, made_, messages_).run();
+    const InlineExtent extent = [this](const Element& node) {
+        const Document* loaded = inlined(node);
+        return loaded != nullptr ? &loaded->extent : nullptr;
+    };
+    document.extent = measure(*document.scene, extent, limits_, messages_);
+}
+
+void Documents::note(const Element& node, const Document& document) {
+    if (node.name == "LOD") has_levels_ = true;
+    if (node.name != "Inline") return;
+    const Document* loaded = load_inline(node, document.folder);
+    if (loaded != nullptr) inlined_[&node] = loaded;
 }
 
 const Document* Documents::load_inline(const Element& node, const fs::path& folder) {
@@ -178,20 +189,63 @@ const Document* Documents::load_inline(const Element& node, const fs::path& fold
         if (!path) continue;
         const std::string canonical = fs::canonical(*path).string();
         if (std::find(open_.begin(), open_.end(), canonical) != open_.end())
-            fields.fail("url", excerpt(url) + " is the file itself or one that Inlines it");
+            fields.refuse("url", excerpt(url) + " is the file itself or one that Inlines it");
         const auto known = by_path_.find(canonical);
         if (known != by_path_.end()) return known->second;
         if (open_.size() > kMaxInlineDepth)
-            fields.fail(
+            fields.refuse(
                 "url", "Inlines nested too deeply (limit " + std::to_string(kMaxInlineDepth) + ")");
-        Document& document = parse(read_bytes(*path), path->string());
+        Document& document = parse(read_bytes(*path), path->string(), path->parent_path());
         open_.push_back(canonical);
-        load_inlines(document, path->parent_path());
+        link(document);
         open_.pop_back();
         return by_path_[canonical] = &document;
     }
     fields.warn("url", reason);
     return nullptr;
+}
+
+Prototype Documents::declared(Prototype prototype) {
+    for (std::size_t files = 0; prototype.declaration != nullptr; ++files) {
+        const Element& node = *prototype.declaration;
+        if (node.name == "ProtoDeclare") break;
+        if (files == kMaxInlineDepth)
+            messages_.refuse(node, "url",
+                             "prototypes referred to through too many files (limit " +
+                                 std::to_string(kMaxInlineDepth) + ")");
+        const auto [known, is_new] = declared_.try_emplace(&node);
+        if (is_new) {
+            const Prototype loaded = load_prototype(node, prototype.document->folder);
+            declared_[&node] = prototype = loaded;
+        } else {
+            prototype = known->second;
+        }
+    }
+    return prototype;
+}
+
+Prototype Documents::load_prototype(const Element& node, const fs::path& folder) {
+    const Fields fields(node, messages_);
+    std::string reason = "without a url left out";
+    for (const std::string& url : fields.strings("url")) {
+        const std::optional<fs::path> path = find_inline(url, folder, reason);
+        if (!path) continue;
+        const std::string canonical = fs::canonical(*path).string();
+        const Document*& document = declaring_[canonical];
+        if (document == nullptr)
+            document = &parse(read_bytes(*path), path->string(), path->parent_path());
+        // Without a name behind a # the file's first prototype is meant.
+        const std::size_t mark = url.find('#');
+        const Element* found = document->first_declaration;
+        if (mark != std::string::npos) {
+            const auto named = document->declarations.find(std::string_view(url).substr(mark + 1));
+            found = named != document->declarations.end() ? named->second : nullptr;
+        }
+        if (found != nullptr) return {found, nullptr, document};
+        reason = "naming no prototype of its file left out";
+    }
+    fields.warn("url", reason);
+    return {};
 }
 
 std::optional<fs::path> Documents::find_inline(const std::string& url, const fs::path& folder,

@@ -1,5 +1,7 @@
 #include "element.h"
 
+#include <vector>
+
 #include "messages.h"
 
 namespace nuvo::x3d {
@@ -8,7 +10,7 @@ namespace {
 
 struct Visit {
     const Element* element;
-    std::size_t next_child = 0;
+    const Element* next_child;
 };
 
 std::string step_name(const Element* parent, const Element& element) {
@@ -28,13 +30,16 @@ std::string step_name(const Element* parent, const Element& element) {
 }  // namespace
 
 std::string place_of(const Element& root, const Element& element) {
-    std::vector<Visit> path{{&root}};
+    std::vector<Visit> path{{&root, root.children.first}};
     while (!path.empty() && path.back().element != &element) {
         Visit& top = path.back();
-        if (top.next_child == top.element->children.size())
+        const Element* child = top.next_child;
+        if (child == nullptr) {
             path.pop_back();
-        else
-            path.push_back({&top.element->children[top.next_child++]});
+            continue;
+        }
+        top.next_child = child->next;
+        path.push_back({child, child->children.first});
     }
     constexpr std::size_t kShownAtEachEnd = 12;
     std::string place;

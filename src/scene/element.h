@@ -1,51 +1,118 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <iterator>
+#include <memory_resource>
+#include <span>
 #include <string>
 #include <string_view>
-#include <unordered_set>
-#include <vector>
 
 namespace nuvo::x3d {
 
-/// The names of a document's elements and attributes, each kept once.
-class Names {
-  public:
-    /// The kept copy of `name`; valid as long as this lives, moved or not.
-    std::string_view keep(std::string_view name) {
-        const auto found = names_.find(name);
-        return found != names_.end() ? *found : *names_.emplace(name).first;
-    }
-
-  private:
-    struct Hash : std::hash<std::string_view> {
-        using is_transparent = void;
-    };
-    std::unordered_set<std::string, Hash, std::equal_to<>> names_;
-};
-
 struct Attribute {
     std::string_view name;
-    std::string value;
+    std::string_view value;
 };
 
-/// One XML element of a document that has been checked; text and comments are gone. Names are views
-/// into the document's Names.
+struct Element;
+
+/// The children of an element, in document order.
+class ElementList {
+  public:
+    template <typename E>
+    class Iterator {
+      public:
+        using value_type = E;
+        using difference_type = std::ptrdiff_t;
+        using pointer = E*;
+        using reference = E&;
+        using iterator_category = std::forward_iterator_tag;
+
+        Iterator() = default;
+        explicit Iterator(E* element) : element_(element) {}
+        E& operator*() const { return *element_; }
+        E* operator->() const { return element_; }
+        Iterator& operator++() {
+            element_ = element_->next;
+            return *this;
+        }
+        Iterator operator++(int) {
+            const Iterator before = *this;
+            ++*this;
+            return before;
+        }
+        friend bool operator==(const Iterator&, const Iterator&) = default;
+
+      private:
+        E* element_ = nullptr;
+    };
+
+    bool empty() const { return first == nullptr; }
+    Iterator<Element> begin() { return Iterator<Element>(first); }
+    Iterator<Element> end() { return {}; }
+    Iterator<const Element> begin() const { return Iterator<const Element>(first); }
+    Iterator<const Element> end() const { return {}; }
+
+    Element* first = nullptr;
+};
+
+/// One XML element of a document that has been checked; text and comments are gone. A value without
+/// an owner of its own: elements, attributes and their text live in the document's ElementArena.
 struct Element {
     std::string_view name;
-    std::vector<Attribute> attributes;
-    std::vector<Element> children;
-    const Element* target = nullptr;  ///< what this element's USE names; null without a USE
-    std::uint32_t line = 0;           ///< of the start tag, counted from 1
+    std::span<const Attribute> attributes;
+    ElementList children;
+    Element* next = nullptr;  ///< the sibling after it
+    /// What stands here instead: the node that a USE names, or the one that a ProtoInstance makes.
+    const Element* target = nullptr;
+    std::uint32_t line = 0;  ///< of the start tag, counted from 1
 
     /// The attribute's value; null when it is not given.
-    const std::string* find(std::string_view attribute) const {
+    const std::string_view* find(std::string_view attribute) const {
         for (const Attribute& a : attributes)
             if (a.name == attribute) return &a.value;
         return nullptr;
     }
-    /// The node that stands here: itself, or what its USE names.
-    const Element& node() const { return target != nullptr ? *target : *this; }
+    /// The attribute's value; empty when it is not given.
+    std::string_view text(std::string_view attribute) const {
+        const std::string_view* value = find(attribute);
+        return value != nullptr ? *value : std::string_view{};
+    }
+    /// The node that stands here: itself, or what its USE or its prototype puts in its place.
+    const Element& node() const {
+        const Element* element = this;
+        while (element->target != nullptr) element = element->target;
+        return *element;
+    }
+    /// The name of that node, e.g. "Shape".
+    std::string_view kind() const { return node().name; }
+};
+
+/// The target of what names nothing: a node of no kind, of which no word is said.
+inline constexpr Element kNothing{};
+
+/// Where a document's elements live: all are made one after the other and end together, which costs
+/// nothing.
+class ElementArena {
+  public:
+    Element* make_element() { return allocator_.new_object<Element>(); }
+    std::span<Attribute> make_attributes(std::size_t count) {
+        if (count == 0) return {};
+        Attribute* first = allocator_.allocate_object<Attribute>(count);
+        std::uninitialized_value_construct_n(first, count);
+        return {first, count};
+    }
+    std::string_view copy(std::string_view text) {
+        if (text.empty()) return {};
+        char* first = allocator_.allocate_object<char>(text.size());
+        text.copy(first, text.size());
+        return {first, text.size()};
+    }
+
+  private:
+    std::pmr::monotonic_buffer_resource memory_;
+    std::pmr::polymorphic_allocator<> allocator_{&memory_};
 };
 
 /// Declarations of prototypes have names of their own and are not drawn.

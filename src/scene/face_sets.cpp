@@ -41,19 +41,6 @@ FaceNumbers read_faces(MeshSource& source) {
     return numbers;
 }
 
-/// Cutting n corners may cost n^2 steps: so many of them count as one point read.
-constexpr std::size_t kCornerPairs = 2;
-
-/// Cuts the polygons into triangles where they may be concave.
-void cut(MeshSource& source) {
-    if (source.fields.boolean("convex", true)) return;
-    const std::size_t uncut = cut_concave(source.polygons, [&](std::size_t corners) {
-        source.budget.take(corners * corners / kCornerPairs, source.fields);
-    });
-    for (std::size_t i = 0; i < uncut; ++i)
-        source.fields.warn("coordIndex", "with a polygon that crosses itself drawn as a fan");
-}
-
 /// Appends the triangles of one strip or fan whose corners are `corner(0)` .. `corner(count - 1)`.
 template <typename Corner>
 void append_run(Polygons& polygons, bool strip, std::size_t count, Corner corner) {
@@ -137,6 +124,16 @@ void read_tuples(MeshSource& source, bool indexed, std::size_t corners) {
 
 }  // namespace
 
+void cut_polygons(MeshSource& source, std::string_view field) {
+    // Cutting n corners may cost n^2 steps: so many of them count as one point read.
+    constexpr std::size_t kCornerPairs = 2;
+    const std::size_t uncut = cut_concave(source.polygons, [&](std::size_t corners) {
+        source.budget.take(corners * corners / kCornerPairs, source.fields);
+    });
+    for (std::size_t i = 0; i < uncut; ++i)
+        source.fields.warn(field, "with a polygon that crosses itself drawn as a fan");
+}
+
 void read_face_set(MeshSource& source) {
     const Fields& fields = source.fields;
     const double crease_angle = fields.number("creaseAngle", 0);
@@ -147,7 +144,7 @@ void read_face_set(MeshSource& source) {
     if (source.polygons.normals.values.empty() && normals.per_vertex) smooth(source, crease_angle);
     read_colors(source, {fields.boolean("colorPerVertex", true), fields.integers("colorIndex"),
                          &numbers.face, &numbers.entry});
-    cut(source);
+    if (!fields.boolean("convex", true)) cut_polygons(source, "coordIndex");
 }
 
 void read_triangle_set(MeshSource& source) {

@@ -11,17 +11,6 @@ namespace {
 
 bool is_separator(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == ','; }
 
-/// Takes the next word off `text`; empty at the end.
-std::string_view next_word(std::string_view& text) {
-    std::size_t begin = 0;
-    while (begin < text.size() && is_separator(text[begin])) ++begin;
-    std::size_t end = begin;
-    while (end < text.size() && !is_separator(text[end])) ++end;
-    const std::string_view word = text.substr(begin, end - begin);
-    text.remove_prefix(end);
-    return word;
-}
-
 /// X3D's numbers may begin with a plus, from_chars' may not.
 std::string_view without_plus(std::string_view word) {
     const bool plus = word.size() > 1 && word[0] == '+' && word[1] != '-';
@@ -35,26 +24,26 @@ bool begins_a_number(std::string_view word) {
            ((word[first] >= '0' && word[first] <= '9') || word[first] == '.');
 }
 
-enum class Verdict { kNumber, kNotANumber, kOutOfRange };
-
-Verdict read(std::string_view word, double& value) {
+NumberVerdict read(std::string_view word, double& value) {
     const std::string_view digits = without_plus(word);
-    if (!begins_a_number(digits)) return Verdict::kNotANumber;
+    if (!begins_a_number(digits)) return NumberVerdict::kNotANumber;
     const char* end = digits.data() + digits.size();
     const auto result = std::from_chars(digits.data(), end, value);
-    if (result.ptr != end || result.ec == std::errc::invalid_argument) return Verdict::kNotANumber;
-    if (result.ec == std::errc{}) return Verdict::kNumber;
+    if (result.ptr != end || result.ec == std::errc::invalid_argument)
+        return NumberVerdict::kNotANumber;
+    if (result.ec == std::errc{}) return NumberVerdict::kNumber;
     // Too large or too small: from_chars does not say which; what is too small is next to zero.
     value = std::strtod(std::string(digits).c_str(), nullptr);
-    return std::isfinite(value) ? Verdict::kNumber : Verdict::kOutOfRange;
+    return std::isfinite(value) ? NumberVerdict::kNumber : NumberVerdict::kOutOfRange;
 }
 
-Verdict read(std::string_view word, std::int32_t& value) {
+NumberVerdict read(std::string_view word, std::int32_t& value) {
     const std::string_view digits = without_plus(word);
     const char* end = digits.data() + digits.size();
     const auto result = std::from_chars(digits.data(), end, value);
-    if (result.ptr != end || result.ec == std::errc::invalid_argument) return Verdict::kNotANumber;
-    return result.ec == std::errc{} ? Verdict::kNumber : Verdict::kOutOfRange;
+    if (result.ptr != end || result.ec == std::errc::invalid_argument)
+        return NumberVerdict::kNotANumber;
+    return result.ec == std::errc{} ? NumberVerdict::kNumber : NumberVerdict::kOutOfRange;
 }
 
 std::string in_quotes(std::string_view word) {
@@ -79,57 +68,75 @@ std::string shown(double value) {
 
 }  // namespace
 
+std::string_view next_word(std::string_view& text) {
+    std::size_t begin = 0;
+    while (begin < text.size() && is_separator(text[begin])) ++begin;
+    std::size_t end = begin;
+    while (end < text.size() && !is_separator(text[end])) ++end;
+    const std::string_view word = text.substr(begin, end - begin);
+    text.remove_prefix(end);
+    return word;
+}
+
+NumberVerdict read_number(std::string_view word, double& value) { return read(word, value); }
+
 void Fields::warn(std::string_view name, const std::string& what) const {
     messages_.warn(std::string(element_.name) + "@" + std::string(name), what, element_);
 }
 
+const std::string_view* Fields::given(std::string_view name) const {
+    const std::string_view* text = element_.find(name);
+    if (text == nullptr || messages_.is_strict()) return text;
+    std::string_view rest = *text;
+    if (!next_word(rest).empty()) return text;
+    reject(name, "is empty");
+    return nullptr;
+}
+
 bool Fields::boolean(std::string_view name, bool fallback) const {
-    const std::string* text = element_.find(name);
+    const std::string_view* text = given(name);
     if (text == nullptr) return fallback;
     std::string_view rest = *text;
     const std::string_view word = next_word(rest);
     if (word == "true" || word == "TRUE") return true;
     if (word == "false" || word == "FALSE") return false;
-    fail(name, in_quotes(*text) + " is neither true nor false");
+    reject(name, in_quotes(*text) + " is neither true nor false");
+    return fallback;
+}
+
+template <typename T>
+std::vector<T> Fields::words(std::string_view name, const char* type, const char* range) const {
+    std::vector<T> values;
+    const std::string_view* text = element_.find(name);
+    if (text == nullptr) return values;
+    std::string_view rest = *text;
+    for (std::string_view word = next_word(rest); !word.empty(); word = next_word(rest)) {
+        T value{};
+        const NumberVerdict verdict = read(word, value);
+        if (verdict != NumberVerdict::kNumber) {
+            reject(name, in_quotes(word) +
+                             (verdict == NumberVerdict::kNotANumber ? " is not " : " is beyond ") +
+                             (verdict == NumberVerdict::kNotANumber ? type : range));
+            return {};
+        }
+        values.push_back(value);
+    }
+    return values;
 }
 
 std::vector<double> Fields::numbers(std::string_view name) const {
-    std::vector<double> values;
-    const std::string* text = element_.find(name);
-    if (text == nullptr) return values;
-    std::string_view rest = *text;
-    for (std::string_view word = next_word(rest); !word.empty(); word = next_word(rest)) {
-        double value = 0;
-        const Verdict verdict = read(word, value);
-        if (verdict == Verdict::kNotANumber) fail(name, in_quotes(word) + " is not a number");
-        if (verdict == Verdict::kOutOfRange)
-            fail(name, in_quotes(word) + " is beyond the range of double");
-        values.push_back(value);
-    }
-    return values;
+    return words<double>(name, "a number", "the range of double");
 }
 
 std::vector<std::int32_t> Fields::integers(std::string_view name) const {
-    std::vector<std::int32_t> values;
-    const std::string* text = element_.find(name);
-    if (text == nullptr) return values;
-    std::string_view rest = *text;
-    for (std::string_view word = next_word(rest); !word.empty(); word = next_word(rest)) {
-        std::int32_t value = 0;
-        const Verdict verdict = read(word, value);
-        if (verdict == Verdict::kNotANumber) fail(name, in_quotes(word) + " is not an integer");
-        if (verdict == Verdict::kOutOfRange)
-            fail(name, in_quotes(word) + " is beyond 32-bit integers");
-        values.push_back(value);
-    }
-    return values;
+    return words<std::int32_t>(name, "an integer", "32-bit integers");
 }
 
 std::vector<std::string> Fields::strings(std::string_view name) const {
     std::vector<std::string> values;
-    const std::string* text = element_.find(name);
+    const std::string_view* text = element_.find(name);
     if (text == nullptr) return values;
-    if (text->find('"') == std::string::npos) {
+    if (text->find('"') == std::string_view::npos) {
         std::string_view rest = *text;
         for (std::string_view word = next_word(rest); !word.empty(); word = next_word(rest))
             values.emplace_back(word);
@@ -152,10 +159,10 @@ std::vector<std::string> Fields::strings(std::string_view name) const {
 std::vector<double> Fields::tuple(std::string_view name, std::size_t count) const {
     if (!has(name)) return {};
     std::vector<double> values = numbers(name);
-    if (values.size() != count)
-        fail(name,
-             std::to_string(values.size()) + " numbers where " + std::to_string(count) + " belong");
-    return values;
+    if (values.size() == count || (values.empty() && !messages_.is_strict())) return values;
+    reject(name,
+           std::to_string(values.size()) + " numbers where " + std::to_string(count) + " belong");
+    return {};
 }
 
 double Fields::number(std::string_view name, double fallback) const {
@@ -225,10 +232,41 @@ std::vector<Color> Fields::colors(std::string_view name) const {
 }
 
 std::vector<Vector3> Fields::vectors(std::string_view name) const {
-    const std::vector<double> values = numbers(name);
-    if (values.size() % 3 != 0)
-        fail(name, std::to_string(values.size()) + " numbers are no list of triples");
-    return in_threes(values);
+    return in_threes(whole(name, 3, "triples", "triple"));
+}
+
+std::vector<double> Fields::whole(std::string_view name, std::size_t size, const char* plural,
+                                  const char* single) const {
+    std::vector<double> values = numbers(name);
+    const std::size_t over = values.size() % size;
+    if (over == 0) return values;
+    if (messages_.is_strict())
+        refuse(name, std::to_string(values.size()) + " numbers are no list of " + plural);
+    warn(name, "with an incomplete last " + std::string(single) + ", which is left out");
+    values.resize(values.size() - over);
+    return values;
+}
+
+std::vector<Vector3> Fields::pairs(std::string_view name) const {
+    const std::vector<double> values = whole(name, 2, "pairs", "pair");
+    std::vector<Vector3> pairs;
+    for (std::size_t i = 0; i < values.size(); i += 2)
+        pairs.push_back({values[i], 0, values[i + 1]});
+    return pairs;
+}
+
+std::vector<Matrix3> Fields::rotations(std::string_view name) const {
+    const std::vector<double> values = whole(name, 4, "rotations", "rotation");
+    std::vector<Matrix3> matrices;
+    for (std::size_t i = 0; i < values.size(); i += 4)
+        matrices.push_back(
+            nuvo::rotation({values[i], values[i + 1], values[i + 2]}, values[i + 3]));
+    return matrices;
+}
+
+std::vector<double> Fields::pair(std::string_view name, double first, double second) const {
+    const std::vector<double> values = tuple(name, 2);
+    return values.empty() ? std::vector<double>{first, second} : values;
 }
 
 }  // namespace nuvo::x3d

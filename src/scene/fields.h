@@ -24,21 +24,32 @@ struct Range {
 inline constexpr Range kUnit{0, 1};
 inline constexpr Range kNotNegative{0, std::numeric_limits<double>::infinity()};
 
-/// Reads the typed fields of one node. A field that is not given has its default; one that cannot
-/// be read (not a number, nan, inf, beyond double, too few or too many numbers) throws Error with
-/// the element's place. Numbers are separated by blanks, line breaks or commas.
+/// Takes the next word off `text`; empty at the end. Blanks, line breaks and commas part words.
+std::string_view next_word(std::string_view& text);
+
+enum class NumberVerdict { kNumber, kNotANumber, kOutOfRange };
+
+/// Reads a word as X3D writes numbers: no nan, inf or hexadecimal; what is too small is next to
+/// zero.
+NumberVerdict read_number(std::string_view word, double& value);
+
+/// Reads the typed fields of one node. A field that is not given has its default, and so has one
+/// that cannot be read (empty, not a number, nan, inf, beyond double, too few or too many numbers),
+/// with a warning; where reading is strict that throws Error with the element's place. Numbers are
+/// separated by blanks, line breaks or commas.
 class Fields {
   public:
     Fields(const Element& element, Messages& messages) : element_(element), messages_(messages) {}
 
     const Element& element() const { return element_; }
+    bool is_strict() const { return messages_.is_strict(); }
     bool boolean(std::string_view name, bool fallback) const;
     double number(std::string_view name, double fallback) const;
     Vector3 vector(std::string_view name, const Vector3& fallback) const;
     /// An SFRotation (axis and angle) as a matrix; a zero axis is no rotation, with a warning.
     Matrix3 rotation(std::string_view name) const;
 
-    /// A length: negative is an error, zero a warning.
+    /// A length: one below zero leaves the node out, zero is a warning.
     double positive_number(std::string_view name, double fallback) const;
 
     /// Outside its range a value is clamped, with a warning.
@@ -47,22 +58,47 @@ class Fields {
     std::vector<double> clamped_numbers(std::string_view name, Range range) const;
     std::vector<Color> colors(std::string_view name) const;
 
+    /// Two numbers (SFVec2f).
+    std::vector<double> pair(std::string_view name, double first, double second) const;
+
     std::vector<double> numbers(std::string_view name) const;
+    /// An MFVec2f, each pair as x and z.
+    std::vector<Vector3> pairs(std::string_view name) const;
+    /// An MFRotation as matrices.
+    std::vector<Matrix3> rotations(std::string_view name) const;
     std::vector<Vector3> vectors(std::string_view name) const;
     std::vector<std::int32_t> integers(std::string_view name) const;
     /// An MFString: its quoted strings, or without quotes its words.
     std::vector<std::string> strings(std::string_view name) const;
 
-    bool has(std::string_view name) const { return element_.find(name) != nullptr; }
+    bool has(std::string_view name) const { return given(name) != nullptr; }
+    /// The node cannot be drawn: throws LeftOut, or Error where reading is strict.
     [[noreturn]] void fail(std::string_view name, const std::string& reason) const {
-        messages_.fail(element_, name, reason);
+        messages_.leave_out(element_, name, reason);
+    }
+    /// The scene cannot be drawn: throws Error.
+    [[noreturn]] void refuse(std::string_view name, const std::string& reason) const {
+        messages_.refuse(element_, name, reason);
+    }
+    /// The field counts as not given: a warning, or Error where reading is strict.
+    void reject(std::string_view name, const std::string& reason) const {
+        messages_.warn_field_left_out(element_, name, reason);
     }
     /// Warns about one field: "Kind@name: 1 what (first at ...)".
     void warn(std::string_view name, const std::string& what) const;
 
   private:
+    /// The field's text; null when it is not given or empty.
+    const std::string_view* given(std::string_view name) const;
+    /// The words of a field as values of type T, by read(word, value); none where one of them is
+    /// not of that type.
+    template <typename T>
+    std::vector<T> words(std::string_view name, const char* type, const char* range) const;
     /// The field's numbers, `count` of them; empty when it is not given.
     std::vector<double> tuple(std::string_view name, std::size_t count) const;
+    /// The field's numbers without an incomplete last one of `size` numbers each.
+    std::vector<double> whole(std::string_view name, std::size_t size, const char* plural,
+                              const char* single) const;
     void warn_clamped(std::string_view name, Range range) const;
 
     const Element& element_;

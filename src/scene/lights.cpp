@@ -28,8 +28,11 @@ Vector3 read_direction(const Fields& fields, const Placement& placement) {
 void read_reach(const Fields& fields, const Placement& placement, Light& light) {
     light.location = placement.to_world.point(fields.vector("location", {}));
     light.attenuation = fields.clamped_vector("attenuation", {1, 0, 0}, kNotNegative);
-    const double radius = fields.number("radius", 100);
-    if (radius < 0) fields.fail("radius", "is negative");
+    double radius = fields.number("radius", light.radius);
+    if (radius < 0) {
+        fields.reject("radius", "is negative");
+        radius = light.radius;
+    }
     light.radius = radius * placement.length_scale;
     if (placement.length_scale > 0)
         light.units_per_world = 1 / placement.length_scale;

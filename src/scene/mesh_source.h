@@ -51,10 +51,27 @@ void read_colors(MeshSource& source, const Spread& spread);
 /// Generates normals below `crease_angle` and counts the work against the budget.
 void smooth(MeshSource& source, double crease_angle);
 
+/// A polygon of so many sides stays within r (1 - cos(pi / n)) of its circle: 0.29 pixels where the
+/// radius is half the height of 1080 rows.
+inline constexpr std::uint32_t kRoundSides = 96;
+
+/// Cuts polygons of kRoundSides sides by halving, 96 sides to 48 to 24 to 12 to 6 to 3, and the
+/// others as fans. A fan's 94 slivers at one corner would have the octree divide around it without
+/// end.
+void cut_round_polygons(Polygons& polygons);
+
+/// Cuts the polygons into triangles where they may be concave; `field` in warnings is where their
+/// corners come from.
+void cut_polygons(MeshSource& source, std::string_view field);
+
 // The readers of the geometry nodes: each appends its polygons, normals and colors.
 void read_face_set(MeshSource& source);
 void read_triangle_set(MeshSource& source);
 void read_elevation_grid(MeshSource& source);
+void read_extrusion(MeshSource& source);
+void read_rectangle(MeshSource& source);
+void read_disk(MeshSource& source);
+void read_triangles_2d(MeshSource& source);
 void read_box(MeshSource& source);
 void read_cone(MeshSource& source);
 void read_cylinder(MeshSource& source);

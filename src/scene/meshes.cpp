@@ -19,15 +19,19 @@ const MeshKind* find_kind(std::string_view name) {
         {"Box", {read_box, false, false}},
         {"Cone", {read_cone, false, false}},
         {"Cylinder", {read_cylinder, false, false}},
+        {"Disk2D", {read_disk, false, false}},
         {"ElevationGrid", {read_elevation_grid, false}},
+        {"Extrusion", {read_extrusion, false}},
         {"IndexedFaceSet", {read_face_set}},
         {"IndexedQuadSet", {read_triangle_set}},
         {"IndexedTriangleFanSet", {read_triangle_set}},
         {"IndexedTriangleSet", {read_triangle_set}},
         {"IndexedTriangleStripSet", {read_triangle_set}},
         {"QuadSet", {read_triangle_set}},
+        {"Rectangle2D", {read_rectangle, false, false}},
         {"TriangleFanSet", {read_triangle_set}},
         {"TriangleSet", {read_triangle_set}},
+        {"TriangleSet2D", {read_triangles_2d, false, false}},
         {"TriangleStripSet", {read_triangle_set}},
     };
     const auto found = kinds.find(name);
@@ -36,15 +40,16 @@ const MeshKind* find_kind(std::string_view name) {
 
 void find_properties(const Element& geometry, MeshSource& source) {
     for (const Element& child : geometry.children) {
-        const bool is_coordinate = child.name == "Coordinate" || child.name == "CoordinateDouble";
-        const bool is_color = child.name == "Color" || child.name == "ColorRGBA";
+        const std::string_view kind = child.kind();
+        const bool is_coordinate = kind == "Coordinate" || kind == "CoordinateDouble";
+        const bool is_color = kind == "Color" || kind == "ColorRGBA";
         if (is_coordinate && source.coordinate == nullptr)
             source.coordinate = &child.node();
-        else if (child.name == "Normal" && source.normal == nullptr)
+        else if (kind == "Normal" && source.normal == nullptr)
             source.normal = &child.node();
         else if (is_color && source.color == nullptr)
             source.color = &child.node();
-        else if (!is_silent(child.name))
+        else if (!is_silent(kind))
             warn_not_drawn(child, source.messages);
     }
 }

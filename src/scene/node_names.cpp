@@ -1,14 +1,18 @@
 #include "node_names.h"
 
-#include <algorithm>
-#include <array>
+#include <string>
+#include <unordered_map>
 #include <unordered_set>
 
 namespace nuvo::x3d {
 
 namespace {
 
-const std::unordered_set<std::string_view> kSilent{"ExternProtoDeclare",
+const std::unordered_set<std::string_view> kSilent{"",
+                                                   "EXPORT",
+                                                   "ExternProtoDeclare",
+                                                   "FontStyle",
+                                                   "IS",
                                                    "MetadataBoolean",
                                                    "MetadataDouble",
                                                    "MetadataFloat",
@@ -17,6 +21,7 @@ const std::unordered_set<std::string_view> kSilent{"ExternProtoDeclare",
                                                    "MetadataString",
                                                    "MultiTextureCoordinate",
                                                    "ProtoDeclare",
+                                                   "ProtoInterface",
                                                    "TextureCoordinate",
                                                    "TextureCoordinate3D",
                                                    "TextureCoordinate4D",
@@ -27,91 +32,138 @@ const std::unordered_set<std::string_view> kSilent{"ExternProtoDeclare",
                                                    "meta",
                                                    "unit"};
 
-constexpr auto kNodes = std::to_array<std::string_view>({"Anchor",
-                                                         "Appearance",
-                                                         "Background",
-                                                         "Billboard",
-                                                         "Box",
-                                                         "CADAssembly",
-                                                         "CADFace",
-                                                         "CADLayer",
-                                                         "CADPart",
-                                                         "Collision",
-                                                         "Color",
-                                                         "ColorRGBA",
-                                                         "Cone",
-                                                         "Coordinate",
-                                                         "CoordinateDouble",
-                                                         "Cylinder",
-                                                         "DirectionalLight",
-                                                         "ElevationGrid",
-                                                         "Extrusion",
-                                                         "FillProperties",
-                                                         "Fog",
-                                                         "Group",
-                                                         "ImageTexture",
-                                                         "IndexedFaceSet",
-                                                         "IndexedLineSet",
-                                                         "IndexedQuadSet",
-                                                         "IndexedTriangleFanSet",
-                                                         "IndexedTriangleSet",
-                                                         "IndexedTriangleStripSet",
-                                                         "Inline",
-                                                         "LOD",
-                                                         "LineProperties",
-                                                         "LineSet",
-                                                         "Material",
-                                                         "MovieTexture",
-                                                         "MultiTexture",
-                                                         "NavigationInfo",
-                                                         "Normal",
-                                                         "OrthoViewpoint",
-                                                         "PhysicalMaterial",
-                                                         "PixelTexture",
-                                                         "PointLight",
-                                                         "PointSet",
-                                                         "ProtoInstance",
-                                                         "QuadSet",
-                                                         "Scene",
-                                                         "Script",
-                                                         "Shape",
-                                                         "Sphere",
-                                                         "SpotLight",
-                                                         "StaticGroup",
-                                                         "Switch",
-                                                         "Text",
-                                                         "TextureTransform",
-                                                         "Transform",
-                                                         "TriangleFanSet",
-                                                         "TriangleSet",
-                                                         "TriangleStripSet",
-                                                         "TwoSidedMaterial",
-                                                         "UnlitMaterial",
-                                                         "Viewpoint",
-                                                         "X3D"});
+/// The nodes and statements of X3D 3.0 to 4.0 (ISO/IEC 19775-1 and 19776-1).
+constexpr std::string_view kNames =
+    "AcousticProperties Analyser Anchor Appearance Arc2D ArcClose2D AudioClip AudioDestination "
+    "Background BallJoint Billboard BiquadFilter BlendedVolumeStyle BooleanFilter BooleanSequencer "
+    "BooleanToggle BooleanTrigger BoundaryEnhancementVolumeStyle BoundedPhysicsModel Box "
+    "BufferAudioSource CADAssembly CADFace CADLayer CADPart CartoonVolumeStyle ChannelMerger "
+    "ChannelSelector ChannelSplitter Circle2D ClipPlane CollidableOffset CollidableShape Collision "
+    "CollisionCollection CollisionSensor CollisionSpace Color ColorChaser ColorDamper "
+    "ColorInterpolator ColorRGBA ComposedCubeMapTexture ComposedShader ComposedTexture3D "
+    "ComposedVolumeStyle Cone ConeEmitter Contact Contour2D ContourPolyline2D Convolver Coordinate "
+    "CoordinateChaser CoordinateDamper CoordinateDouble CoordinateInterpolator "
+    "CoordinateInterpolator2D Cylinder CylinderSensor DISEntityManager DISEntityTypeMapping Delay "
+    "DirectionalLight Disk2D DoubleAxisHingeJoint DynamicsCompressor EXPORT EaseInEaseOut "
+    "EdgeEnhancementVolumeStyle ElevationGrid EnvironmentLight EspduTransform ExplosionEmitter "
+    "ExternProtoDeclare Extrusion FillProperties FloatVertexAttribute Fog FogCoordinate FontStyle "
+    "ForcePhysicsModel Gain GeneratedCubeMapTexture GeoCoordinate GeoElevationGrid GeoLOD "
+    "GeoLocation GeoMetadata GeoOrigin GeoPositionInterpolator GeoProximitySensor GeoTouchSensor "
+    "GeoTransform GeoViewpoint Group HAnimDisplacer HAnimHumanoid HAnimJoint HAnimMotion "
+    "HAnimSegment HAnimSite IMPORT IS ImageCubeMapTexture ImageTexture ImageTexture3D "
+    "ImageTextureAtlas IndexedFaceSet IndexedLineSet IndexedQuadSet IndexedTriangleFanSet "
+    "IndexedTriangleSet IndexedTriangleStripSet Inline IntegerSequencer IntegerTrigger "
+    "IsoSurfaceVolumeData KeySensor LOD Layer LayerSet Layout LayoutGroup LayoutLayer "
+    "LinePickSensor LineProperties LineSet ListenerPointSource LoadSensor LocalFog Material "
+    "Matrix3VertexAttribute Matrix4VertexAttribute MetadataBoolean MetadataDouble MetadataFloat "
+    "MetadataInteger MetadataSet MetadataString MicrophoneSource MotorJoint MovieTexture "
+    "MultiTexture MultiTextureCoordinate MultiTextureTransform NavigationInfo Normal "
+    "NormalInterpolator NurbsCurve NurbsCurve2D NurbsOrientationInterpolator NurbsPatchSurface "
+    "NurbsPositionInterpolator NurbsSet NurbsSurfaceInterpolator NurbsSweptSurface "
+    "NurbsSwungSurface NurbsTextureCoordinate NurbsTrimmedSurface OpacityMapVolumeStyle "
+    "OrientationChaser OrientationDamper OrientationInterpolator OrthoViewpoint OscillatorSource "
+    "PackagedShader ParticleSystem PeriodicWave PhysicalMaterial PickableGroup PixelTexture "
+    "PixelTexture3D PlaneSensor PointEmitter PointLight PointPickSensor PointProperties PointSet "
+    "Polyline2D PolylineEmitter Polypoint2D PositionChaser PositionChaser2D PositionDamper "
+    "PositionDamper2D PositionInterpolator PositionInterpolator2D PrimitivePickSensor "
+    "ProgramShader "
+    "ProjectionVolumeStyle ProtoBody ProtoDeclare ProtoInstance ProtoInterface ProximitySensor "
+    "QuadSet ROUTE ReceiverPdu Rectangle2D RigidBody RigidBodyCollection ScalarChaser ScalarDamper "
+    "ScalarInterpolator Scene ScreenFontStyle ScreenGroup Script SegmentedVolumeData "
+    "ShadedVolumeStyle ShaderPart ShaderProgram Shape SignalPdu SilhouetteEnhancementVolumeStyle "
+    "SingleAxisHingeJoint SliderJoint Sound SpatialSound Sphere SphereSensor "
+    "SplinePositionInterpolator SplinePositionInterpolator2D SplineScalarInterpolator SpotLight "
+    "SquadOrientationInterpolator StaticGroup StreamAudioDestination StreamAudioSource "
+    "StringSensor "
+    "SurfaceEmitter Switch TexCoordChaser2D TexCoordDamper2D Text TextureBackground "
+    "TextureCoordinate TextureCoordinate3D TextureCoordinate4D TextureCoordinateGenerator "
+    "TextureProjector TextureProjectorParallel TextureProperties TextureTransform "
+    "TextureTransform3D TextureTransformMatrix3D TimeSensor TimeTrigger ToggleGroup "
+    "ToneMappedVolumeStyle TouchSensor Transform TransformSensor TransmitterPdu TriangleFanSet "
+    "TriangleSet TriangleSet2D TriangleStripSet TwoSidedMaterial UniversalJoint UnlitMaterial "
+    "Viewpoint ViewpointGroup Viewport VisibilitySensor VolumeData VolumeEmitter VolumePickSensor "
+    "WaveShaper WindPhysicsModel WorldInfo X3D component connect field fieldValue head meta unit";
 
-char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+std::string lower(std::string_view text) {
+    std::string result(text);
+    for (char& c : result)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return result;
+}
 
-bool equal_but_for_case(std::string_view a, std::string_view b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                      [](char x, char y) { return lower(x) == lower(y); });
+std::unordered_map<std::string, std::string_view> spellings() {
+    std::unordered_map<std::string, std::string_view> result;
+    for (std::string_view rest = kNames; !rest.empty();) {
+        const std::string_view name = rest.substr(0, rest.find(' '));
+        rest.remove_prefix(std::min(rest.size(), name.size() + 1));
+        result.emplace(lower(name), name);
+    }
+    return result;
 }
 
 }  // namespace
 
+NodeKind node_kind(std::string_view name) {
+    static const std::unordered_map<std::string_view, NodeKind> kinds{
+        {"Anchor", NodeKind::kGroup},
+        {"Background", NodeKind::kBackground},
+        {"Billboard", NodeKind::kGroup},
+        {"CADAssembly", NodeKind::kGroup},
+        {"CADFace", NodeKind::kGroup},
+        {"CADLayer", NodeKind::kGroup},
+        {"CADPart", NodeKind::kTransform},
+        {"Collision", NodeKind::kGroup},
+        {"DirectionalLight", NodeKind::kDirectionalLight},
+        {"EspduTransform", NodeKind::kTransform},
+        {"GeoLOD", NodeKind::kGroup},
+        {"GeoLocation", NodeKind::kGroup},
+        {"GeoTransform", NodeKind::kTransform},
+        {"Group", NodeKind::kGroup},
+        {"HAnimHumanoid", NodeKind::kHumanoid},
+        {"HAnimJoint", NodeKind::kTransform},
+        {"HAnimSegment", NodeKind::kGroup},
+        {"HAnimSite", NodeKind::kTransform},
+        {"Inline", NodeKind::kInline},
+        {"LOD", NodeKind::kLod},
+        {"Layer", NodeKind::kGroup},
+        {"LayerSet", NodeKind::kLayers},
+        {"LayoutGroup", NodeKind::kGroup},
+        {"LayoutLayer", NodeKind::kGroup},
+        {"NavigationInfo", NodeKind::kNavigationInfo},
+        {"PickableGroup", NodeKind::kGroup},
+        {"PointLight", NodeKind::kPointLight},
+        {"ScreenGroup", NodeKind::kGroup},
+        {"Shape", NodeKind::kShape},
+        {"SpotLight", NodeKind::kSpotLight},
+        {"StaticGroup", NodeKind::kGroup},
+        {"Switch", NodeKind::kSwitch},
+        {"ToggleGroup", NodeKind::kGroup},
+        {"Transform", NodeKind::kTransform},
+        {"Viewpoint", NodeKind::kViewpoint},
+        {"ViewpointGroup", NodeKind::kGroup},
+        {"Viewport", NodeKind::kGroup},
+    };
+    const auto found = kinds.find(name);
+    return found == kinds.end() ? NodeKind::kNotDrawn : found->second;
+}
+
 bool is_silent(std::string_view name) { return kSilent.contains(name); }
 
+std::string_view right_spelling(std::string_view name) {
+    static const std::unordered_map<std::string, std::string_view> known = spellings();
+    const auto found = known.find(lower(name));
+    return found == known.end() ? std::string_view{} : found->second;
+}
+
 void warn_not_drawn(const Element& element, Messages& messages) {
-    if (messages.warn(excerpt(element.name), "not drawn", element))
+    if (messages.warn(excerpt(element.kind()), "not drawn", element) && messages.is_strict())
         refuse_misspelt(element, messages);
 }
 
 void refuse_misspelt(const Element& element, const Messages& messages) {
-    const auto* node = std::find_if(kNodes.begin(), kNodes.end(), [&](std::string_view known) {
-        return known != element.name && equal_but_for_case(known, element.name);
-    });
-    if (node != kNodes.end())
-        messages.fail(element, "", "no node of X3D, which spells it " + std::string(*node));
+    const std::string_view node = right_spelling(element.name);
+    if (!node.empty() && node != element.name)
+        messages.refuse(element, "", "no node of X3D, which spells it " + std::string(node));
 }
 
 }  // namespace nuvo::x3d

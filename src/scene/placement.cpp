@@ -40,6 +40,14 @@ Placement Placement::inside(const Fields& transform) const {
     return inner;
 }
 
+Placement Placement::scaled(double factor) const {
+    if (factor == 1) return *this;
+    Placement inner = *this;
+    inner.to_world = to_world * Affine3{diagonal({factor, factor, factor}), {}};
+    inner.length_scale = length_scale * factor;
+    return inner;
+}
+
 Vector3 Placement::normal(const Vector3& local) const {
     if (to_world.linear == Matrix3{}) return normalized(local);
     // Scaled to entries of at most 1, so that the cofactors neither overflow nor vanish.

@@ -25,6 +25,8 @@ struct Placement {
     /// The placement of the children of a Transform that stands here:
     /// P' = T C R SR S -SR -C P (ISO/IEC 19775-1 clause 10).
     Placement inside(const Fields& transform) const;
+    /// The same with all lengths multiplied.
+    Placement scaled(double factor) const;
     /// A normal in world space, up to length: by the inverse transpose. Not for singular
     /// placements.
     Vector3 normal(const Vector3& local) const;

@@ -1,47 +1,16 @@
 #include "scene_reader.h"
 
 #include <cmath>
-#include <unordered_map>
 
 #include "children.h"
-#include "node_names.h"
 #include "view.h"
 
 namespace nuvo::x3d {
 
-const SceneReader::Kind* SceneReader::kind_of(std::string_view name) {
-    using Role = Kind::Role;
-    static const std::unordered_map<std::string_view, Kind> kinds{
-        {"Anchor", {&SceneReader::read_group, Role::kGroup}},
-        {"Background", {&SceneReader::read_background_node, Role::kOther}},
-        {"Billboard", {&SceneReader::read_group, Role::kGroup}},
-        {"CADAssembly", {&SceneReader::read_group, Role::kGroup}},
-        {"CADFace", {&SceneReader::read_group, Role::kGroup}},
-        {"CADLayer", {&SceneReader::read_group, Role::kGroup}},
-        {"CADPart", {&SceneReader::read_transform, Role::kGroup}},
-        {"Collision", {&SceneReader::read_group, Role::kGroup}},
-        {"DirectionalLight", {&SceneReader::read_directional_light, Role::kOther}},
-        {"Group", {&SceneReader::read_group, Role::kGroup}},
-        {"Inline", {&SceneReader::read_inline, Role::kGroup}},
-        {"LOD", {&SceneReader::read_level_of_detail, Role::kGroup}},
-        {"NavigationInfo", {&SceneReader::read_navigation_info, Role::kOther}},
-        {"PointLight", {&SceneReader::read_point_light, Role::kOther}},
-        {"Shape", {&SceneReader::read_shape, Role::kShape}},
-        {"SpotLight", {&SceneReader::read_spot_light, Role::kOther}},
-        {"StaticGroup", {&SceneReader::read_group, Role::kGroup}},
-        {"Switch", {&SceneReader::read_switch, Role::kGroup}},
-        {"Transform", {&SceneReader::read_transform, Role::kGroup}},
-        {"Viewpoint", {&SceneReader::read_viewpoint_node, Role::kView}},
-    };
-    const auto found = kinds.find(name);
-    return found == kinds.end() ? nullptr : &found->second;
-}
-
-Scene SceneReader::read(const Document& document, Headlight headlight,
-                        const std::string& viewpoint) {
-    wanted_viewpoint_ = viewpoint;
+Scene SceneReader::read(const Document& document) {
     version_ = document.version;
     file_ = document.name;
+    length_unit_ = document.units.length;
     if (documents_.has_levels()) find_camera_first(*document.scene);
     read_children(*document.scene, {});
     check_viewpoint();
@@ -50,7 +19,7 @@ Scene SceneReader::read(const Document& document, Headlight headlight,
         if (scope.first >= scope.last)
             messages_.warn(light_nodes_[i]->name, "reaching no shape", *light_nodes_[i]);
     }
-    add_headlight(headlight);
+    add_headlight();
     scene_.materials = materials_.take();
     scene_.warnings = messages_.warnings();
     return std::move(scene_);
@@ -67,10 +36,10 @@ void SceneReader::find_camera_first(const Element& scene) {
 }
 
 void SceneReader::check_viewpoint() const {
-    if (has_viewpoint_ || wanted_viewpoint_.empty()) return;
+    if (has_viewpoint_ || options_.viewpoint.empty()) return;
     std::string names;
     for (const std::string& name : scene_.viewpoints) names += " " + excerpt(name);
-    throw Error(file_ + ": has no Viewpoint \"" + excerpt(wanted_viewpoint_) + "\" among its " +
+    throw Error(file_ + ": has no Viewpoint \"" + excerpt(options_.viewpoint) + "\" among its " +
                 std::to_string(scene_.viewpoints.size()) + (names.empty() ? "" : ":" + names));
 }
 
@@ -95,31 +64,78 @@ void SceneReader::read_only(const Element* chosen, const Element& parent,
 }
 
 void SceneReader::read_child(const Element& child, Group& group) {
-    const Kind* kind = kind_of(child.name);
-    if (kind == nullptr) {
-        if (!is_silent(child.name)) warn_not_drawn(child, messages_);
+    const Element& node = child.node();
+    const NodeKind kind = node_kind(node.name);
+    if (kind == NodeKind::kNotDrawn) {
+        if (!is_silent(node.name)) warn_not_drawn(child, messages_);
         return;
     }
-    const bool drawable = kind->role == Kind::Role::kGroup || kind->role == Kind::Role::kShape;
-    if (drawable &&
-        (is_proxy(child) || !Fields(child.node(), messages_).boolean("visible", true))) {
+    if (is_listing(child)) return;
+    if (is_drawable(kind) &&
+        (is_proxy(child) || !Fields(node, messages_).boolean("visible", true))) {
         count_hidden(child);
         return;
     }
-    const bool may_view = kind->role == Kind::Role::kGroup || kind->role == Kind::Role::kView;
-    if (!looking_for_camera_ || may_view) (this->*kind->handler)(child.node(), group);
+    const bool may_view =
+        (is_drawable(kind) && kind != NodeKind::kShape) || kind == NodeKind::kViewpoint;
+    if (looking_for_camera_ && !may_view) return;
+    try {
+        read_node(kind, node, group);
+    } catch (const LeftOut& left_out) {
+        messages_.warn_left_out(node.name, left_out);
+    }
+}
+
+void SceneReader::read_node(NodeKind kind, const Element& node, Group& group) {
+    switch (kind) {
+        case NodeKind::kNotDrawn:
+            return;
+        case NodeKind::kGroup:
+            return read_children(node, group.placement);
+        case NodeKind::kTransform:
+        case NodeKind::kHumanoid:
+            return read_children(node, group.placement.inside(Fields(node, messages_)));
+        case NodeKind::kLayers:
+            return read_layers(node, group);
+        case NodeKind::kSwitch:
+            return read_switch(node, group);
+        case NodeKind::kLod:
+            return read_level_of_detail(node, group);
+        case NodeKind::kInline:
+            return read_inline(node, group);
+        case NodeKind::kShape:
+            return read_shape(node, group);
+        case NodeKind::kDirectionalLight:
+            return add_light(Light::Kind::kDirectional, node, group);
+        case NodeKind::kPointLight:
+            return add_light(Light::Kind::kPoint, node, group);
+        case NodeKind::kSpotLight:
+            return add_light(Light::Kind::kSpot, node, group);
+        case NodeKind::kViewpoint:
+            return read_viewpoint_node(node, group);
+        case NodeKind::kBackground:
+            return read_background_node(node);
+        case NodeKind::kNavigationInfo:
+            return read_navigation_info(node);
+    }
 }
 
 void SceneReader::count_hidden(const Element& node) {
     if (!looking_for_camera_) scene_.shape_count += count_shapes(node, documents_);
 }
 
-void SceneReader::read_group(const Element& node, Group& group) {
-    read_children(node, group.placement);
-}
-
-void SceneReader::read_transform(const Element& node, Group& group) {
-    read_children(node, group.placement.inside(Fields(node, messages_)));
+void SceneReader::read_layers(const Element& node, Group& group) {
+    const std::vector<bool> is_drawn = drawn_layers(node, Fields(node, messages_));
+    std::size_t i = 0;
+    for (const Element& layer : node.children) {
+        if (is_drawn[i++]) {
+            read_child(layer, group);
+            continue;
+        }
+        if (is_drawable(node_kind(layer.kind())))
+            messages_.warn(layer.kind(), "not in the order of its LayerSet: not drawn", layer);
+        count_hidden(layer);
+    }
 }
 
 void SceneReader::read_switch(const Element& node, Group& group) {
@@ -141,7 +157,8 @@ void SceneReader::read_inline(const Element& node, Group& group) {
     const Version outer = version_;
     version_ = document->version;
     ++inline_depth_;
-    read_children(*document->scene, group.placement);
+    const double scale = document->units.length / length_unit_;
+    read_children(*document->scene, group.placement.scaled(scale));
     --inline_depth_;
     version_ = outer;
 }
@@ -157,13 +174,14 @@ void SceneReader::read_shape(const Element& node, Group& group) {
     const Element* appearance = nullptr;
     const Element* geometry = nullptr;
     for (const Element& child : node.children) {
-        if (is_silent(child.name)) continue;
-        if (child.name == "Appearance" && appearance == nullptr)
+        const std::string_view kind = child.kind();
+        if (is_silent(kind)) continue;
+        if (kind == "Appearance" && appearance == nullptr)
             appearance = &child.node();
-        else if (child.name != "Appearance" && geometry == nullptr)
+        else if (kind != "Appearance" && geometry == nullptr)
             geometry = &child.node();
         else
-            messages_.warn(excerpt(child.name), "beyond the first of its Shape left out", child);
+            messages_.warn(excerpt(kind), "beyond the first of its Shape left out", child);
     }
     const std::optional<std::uint32_t> material = materials_.look_up(appearance);
     if (!material || geometry == nullptr) return;
@@ -174,7 +192,8 @@ void SceneReader::read_shape(const Element& node, Group& group) {
                        node);
         return;
     }
-    const bool solid = Fields(*geometry, messages_).boolean("solid", true);
+    const bool solid =
+        Fields(*geometry, messages_).boolean("solid", !geometry->name.ends_with("2D"));
     scene_.objects.push_back({std::move(*shape), *material, shape_index, solid});
 }
 
@@ -207,18 +226,6 @@ std::optional<Shape> SceneReader::read_sphere(const Element& node, const Placeme
     return Ellipsoid{center, linear, radius};
 }
 
-void SceneReader::read_directional_light(const Element& node, Group& group) {
-    add_light(Light::Kind::kDirectional, node, group);
-}
-
-void SceneReader::read_point_light(const Element& node, Group& group) {
-    add_light(Light::Kind::kPoint, node, group);
-}
-
-void SceneReader::read_spot_light(const Element& node, Group& group) {
-    add_light(Light::Kind::kSpot, node, group);
-}
-
 void SceneReader::add_light(Light::Kind kind, const Element& node, Group& group) {
     const Fields fields(node, messages_);
     const std::optional<PlacedLight> placed = read_light(kind, fields, group.placement, version_);
@@ -235,25 +242,26 @@ void SceneReader::add_light(Light::Kind kind, const Element& node, Group& group)
 void SceneReader::read_viewpoint_node(const Element& node, Group& group) {
     if (inline_depth_ > 0) return;
     scene_.viewpoints.push_back(viewpoint_name(node, scene_.viewpoints.size() + 1));
-    if (has_viewpoint_ || !is_wanted(node, scene_.viewpoints.size(), wanted_viewpoint_)) return;
-    has_viewpoint_ = true;
+    if (has_viewpoint_ || !is_wanted(node, scene_.viewpoints.size(), options_.viewpoint)) return;
     scene_.camera = read_viewpoint(Fields(node, messages_), group.placement);
+    has_viewpoint_ = true;
 }
 
-void SceneReader::read_background_node(const Element& node, Group&) {
+void SceneReader::read_background_node(const Element& node) {
     if (has_background_ || inline_depth_ > 0) return;
     has_background_ = true;
     scene_.background = read_background(Fields(node, messages_));
 }
 
-void SceneReader::read_navigation_info(const Element& node, Group&) {
+void SceneReader::read_navigation_info(const Element& node) {
     if (headlight_ || inline_depth_ > 0) return;
     headlight_ = Fields(node, messages_).boolean("headlight", true);
 }
 
-void SceneReader::add_headlight(Headlight headlight) {
+void SceneReader::add_headlight() {
     const bool automatic = headlight_.value_or(scene_.lights.empty());
-    if (headlight == Headlight::kOff || (headlight == Headlight::kAuto && !automatic)) return;
+    const Headlight wish = options_.headlight;
+    if (wish == Headlight::kOff || (wish == Headlight::kAuto && !automatic)) return;
     Light light;
     light.direction = scene_.camera.forward;
     light.casts_shadow = false;

@@ -8,6 +8,7 @@
 #include "documents.h"
 #include "lights.h"
 #include "meshes.h"
+#include "node_names.h"
 #include "nuvo/scene/x3d.h"
 #include "placement.h"
 #include "repeats.h"
@@ -18,13 +19,14 @@ namespace nuvo::x3d {
 /// Walks the scene graph of checked documents, whose USEs are resolved, and gathers the Scene.
 class SceneReader {
   public:
-    SceneReader(const Documents& documents, const Limits& limits, Messages& messages)
+    SceneReader(const Documents& documents, const ReadOptions& options, Messages& messages)
         : documents_(documents),
+          options_(options),
           messages_(messages),
           materials_(messages),
-          vertices_{limits.vertices} {}
+          vertices_{options.limits.vertices} {}
 
-    Scene read(const Document& document, Headlight headlight, const std::string& viewpoint);
+    Scene read(const Document& document);
 
   private:
     /// What the children of a grouping node share.
@@ -32,21 +34,13 @@ class SceneReader {
         Placement placement;
         std::vector<std::size_t> scoped_lights;  // that light this group only
     };
-    using Handler = void (SceneReader::*)(const Element&, Group&);
-    struct Kind {
-        Handler handler;
-        enum class Role { kGroup, kShape, kView, kOther } role;
-    };
-
-    /// How a node's kind is read; null where it is not drawn.
-    static const Kind* kind_of(std::string_view name);
 
     // The recursion, at most as deep as the document limit allows.
     void read_children(const Element& parent, const Placement& placement);
     void read_only(const Element* child, const Element& parent, const Placement& placement);
     void read_child(const Element& child, Group& group);
-    void read_group(const Element& node, Group& group);
-    void read_transform(const Element& node, Group& group);
+    void read_node(NodeKind kind, const Element& node, Group& group);
+    void read_layers(const Element& node, Group& group);
     void read_switch(const Element& node, Group& group);
     void read_level_of_detail(const Element& node, Group& group);
     void read_inline(const Element& node, Group& group);
@@ -55,12 +49,9 @@ class SceneReader {
 
     // The leaves.
     void read_shape(const Element& node, Group& group);
-    void read_directional_light(const Element& node, Group& group);
-    void read_point_light(const Element& node, Group& group);
-    void read_spot_light(const Element& node, Group& group);
     void read_viewpoint_node(const Element& node, Group& group);
-    void read_background_node(const Element& node, Group& group);
-    void read_navigation_info(const Element& node, Group& group);
+    void read_background_node(const Element& node);
+    void read_navigation_info(const Element& node);
 
     void find_camera_first(const Element& scene);
     void check_viewpoint() const;
@@ -68,13 +59,15 @@ class SceneReader {
     std::optional<Shape> read_geometry(const Element& node, const Placement& placement);
     std::optional<Shape> read_sphere(const Element& node, const Placement& placement);
     void close_scopes(const Group& group, std::size_t first_object);
-    void add_headlight(Headlight headlight);
+    void add_headlight();
 
     const Documents& documents_;
+    const ReadOptions& options_;
     Messages& messages_;
     MaterialTable materials_;
     VertexBudget vertices_;
     Version version_;                  // of the file that is being read
+    double length_unit_ = 1;           // of the scene's own file, in meters
     std::string file_;                 // in messages
     std::size_t inline_depth_ = 0;     // above 0 nothing is bound
     bool looking_for_camera_ = false;  // and for nothing else
@@ -83,7 +76,6 @@ class SceneReader {
     std::vector<const Element*> light_nodes_;  // beside scene_.lights
     // Of several bindable nodes of a kind the first in the document counts, or the Viewpoint that
     // was asked for.
-    std::string wanted_viewpoint_;
     bool has_viewpoint_ = false;
     bool has_background_ = false;
     std::optional<bool> headlight_;

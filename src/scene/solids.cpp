@@ -7,9 +7,7 @@ namespace nuvo::x3d {
 
 namespace {
 
-/// A polygon of so many sides stays within r (1 - cos(pi / n)) of its circle: 0.29 pixels where the
-/// radius is half the height of 1080 rows.
-constexpr std::uint32_t kSides = 96;
+constexpr std::uint32_t kSides = kRoundSides;
 
 /// The unit circle from -z on, counterclockwise seen from +y.
 Vector3 on_circle(double side) {
@@ -39,9 +37,16 @@ void append_cap(Polygons& polygons, std::uint32_t ring, bool above) {
     polygons.end_polygon();
 }
 
-/// Cuts the caps by halving, 96 sides to 48 to 24 to 12 to 6 to 3, and the other polygons as fans.
-/// A fan's 94 slivers at one corner would have the octree divide around it without end.
-void cut_caps(Polygons& polygons) {
+void take_all(MeshSource& source) {
+    const Polygons& polygons = source.polygons;
+    source.budget.take(polygons.points.size() + polygons.corners.size() +
+                           polygons.normals.values.size() + polygons.normals.corners.size(),
+                       source.fields);
+}
+
+}  // namespace
+
+void cut_round_polygons(Polygons& polygons) {
     for (std::size_t i = 0; i < polygons.count(); ++i) {
         const std::uint32_t begin = polygons.ends[i];
         const std::uint32_t count = polygons.ends[i + 1] - begin;
@@ -55,15 +60,6 @@ void cut_caps(Polygons& polygons) {
             polygons.cuts.push_back({begin, begin + c, begin + c + step});
     }
 }
-
-void take_all(MeshSource& source) {
-    const Polygons& polygons = source.polygons;
-    source.budget.take(polygons.points.size() + polygons.corners.size() +
-                           polygons.normals.values.size() + polygons.normals.corners.size(),
-                       source.fields);
-}
-
-}  // namespace
 
 void read_box(MeshSource& source) {
     const Vector3 size = source.fields.vector("size", {2, 2, 2});
@@ -101,7 +97,7 @@ void read_cylinder(MeshSource& source) {
     }
     if (source.fields.boolean("top", true)) append_cap(polygons, high, true);
     if (source.fields.boolean("bottom", true)) append_cap(polygons, low, false);
-    cut_caps(polygons);
+    cut_round_polygons(polygons);
     take_all(source);
 }
 
@@ -130,7 +126,7 @@ void read_cone(MeshSource& source) {
         }
     }
     if (source.fields.boolean("bottom", true)) append_cap(polygons, low, false);
-    cut_caps(polygons);
+    cut_round_polygons(polygons);
     take_all(source);
 }
 

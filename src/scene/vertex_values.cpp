@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <numbers>
 
 #include "mesh_source.h"
@@ -8,12 +9,13 @@ namespace {
 
 /// The words of messages about one kind of values.
 struct Words {
+    const char* node;
     const char* field;
     const char* index_field;
     const char* plural;
 };
-constexpr Words kNormalWords{"normal", "normalIndex", "normals"};
-constexpr Words kColorWords{"color", "colorIndex", "colors"};
+constexpr Words kNormalWords{"Normal", "normal", "normalIndex", "normals"};
+constexpr Words kColorWords{"Color", "color", "colorIndex", "colors"};
 
 class Assignment {
   public:
@@ -78,15 +80,39 @@ class Assignment {
     const Words& words_;
 };
 
+/// Gives `values` to the polygons; ones that do not suit them are left out.
+void assign(MeshSource& source, const Spread& spread, CornerValues& values, const Words& words) {
+    if (values.values.empty()) return;
+    try {
+        if (!spread.per_vertex &&
+            std::find(spread.index.begin(), spread.index.end(), -1) != spread.index.end()) {
+            // Only an index per corner has -1 between the faces.
+            if (source.messages.is_strict()) return Assignment(source, spread, values, words).run();
+            source.fields.warn(words.index_field, "with -1 between entries, which is passed over");
+            Spread without = spread;
+            std::erase(without.index, -1);
+            return Assignment(source, without, values, words).run();
+        }
+        Assignment(source, spread, values, words).run();
+    } catch (const LeftOut& left_out) {
+        source.messages.warn_left_out(words.node, left_out);
+        values = {};
+    }
+}
+
 /// ColorRGBA's colors; what is not opaque is drawn opaque.
 std::vector<Color> read_rgba(const Fields& fields) {
     const std::vector<double> numbers = fields.clamped_numbers("color", kUnit);
-    if (numbers.size() % 4 != 0)
-        fields.fail("color", std::to_string(numbers.size()) + " numbers are no list of fours");
+    if (numbers.size() % 4 != 0) {
+        if (fields.is_strict())
+            fields.refuse("color",
+                          std::to_string(numbers.size()) + " numbers are no list of fours");
+        fields.warn("color", "with an incomplete last color, which is left out");
+    }
     std::vector<Color> colors;
     colors.reserve(numbers.size() / 4);
     bool opaque = true;
-    for (std::size_t i = 0; i < numbers.size(); i += 4) {
+    for (std::size_t i = 0; i + 3 < numbers.size(); i += 4) {
         colors.push_back({numbers[i], numbers[i + 1], numbers[i + 2]});
         opaque = opaque && numbers[i + 3] == 1;
     }
@@ -98,8 +124,8 @@ std::vector<Color> read_rgba(const Fields& fields) {
 
 void VertexBudget::take(std::size_t count, const Fields& fields) {
     if (count > limit - used)
-        fields.fail("", "the scene's meshes exceed the limit of " + std::to_string(limit) +
-                            " points, indices, normals and colors");
+        fields.refuse("", "the scene's meshes exceed the limit of " + std::to_string(limit) +
+                              " points, indices, normals and colors");
     used += count;
 }
 
@@ -117,7 +143,7 @@ void read_normals(MeshSource& source, const Spread& spread) {
     CornerValues& normals = source.polygons.normals;
     normals.values = fields.vectors("vector");
     source.budget.take(normals.values.size() + spread.index.size(), fields);
-    if (!normals.values.empty()) Assignment(source, spread, normals, kNormalWords).run();
+    assign(source, spread, normals, kNormalWords);
 }
 
 void read_colors(MeshSource& source, const Spread& spread) {
@@ -126,7 +152,7 @@ void read_colors(MeshSource& source, const Spread& spread) {
     CornerValues& colors = source.polygons.colors;
     colors.values = source.color->name == "ColorRGBA" ? read_rgba(fields) : fields.colors("color");
     source.budget.take(colors.values.size() + spread.index.size(), fields);
-    if (!colors.values.empty()) Assignment(source, spread, colors, kColorWords).run();
+    assign(source, spread, colors, kColorWords);
 }
 
 void smooth(MeshSource& source, double crease_angle) {

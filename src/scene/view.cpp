@@ -30,8 +30,10 @@ Camera read_viewpoint(const Fields& fields, const Placement& placement) {
     const Affine3& to_world = placement.to_world;
     camera.position = to_world.point(fields.vector("position", camera.position));
     camera.field_of_view_rad = fields.number("fieldOfView", camera.field_of_view_rad);
-    if (!(camera.field_of_view_rad > 0 && camera.field_of_view_rad < std::numbers::pi))
-        fields.fail("fieldOfView", "is not between 0 and pi");
+    if (!(camera.field_of_view_rad > 0 && camera.field_of_view_rad < std::numbers::pi)) {
+        fields.reject("fieldOfView", "is not between 0 and pi");
+        camera.field_of_view_rad = Camera{}.field_of_view_rad;
+    }
     const Matrix3 orientation = fields.rotation("orientation");
     const Vector3 forward = normalized(to_world.vector(orientation * Vector3{0, 0, -1}));
     const Vector3 right =
@@ -50,15 +52,15 @@ Camera read_viewpoint(const Fields& fields, const Placement& placement) {
 
 std::string viewpoint_name(const Element& node, std::size_t number) {
     for (const char* field : {"DEF", "description"})
-        if (const std::string* name = node.find(field); name != nullptr && !name->empty())
-            return *name;
+        if (const std::string_view* name = node.find(field); name != nullptr && !name->empty())
+            return std::string(*name);
     return std::to_string(number);
 }
 
 bool is_wanted(const Element& node, std::size_t number, const std::string& wanted) {
     if (wanted.empty() || wanted == std::to_string(number)) return true;
     for (const char* field : {"DEF", "description"})
-        if (const std::string* name = node.find(field); name != nullptr && *name == wanted)
+        if (const std::string_view* name = node.find(field); name != nullptr && *name == wanted)
             return true;
     return false;
 }
@@ -74,7 +76,7 @@ Background read_background(const Fields& fields) {
     match(fields, "groundAngle", background.ground_color, background.ground_angle);
     for (const char* picture :
          {"backUrl", "bottomUrl", "frontUrl", "leftUrl", "rightUrl", "topUrl"})
-        if (const std::string* url = fields.element().find(picture);
+        if (const std::string_view* url = fields.element().find(picture);
             url != nullptr && !url->empty())
             fields.warn(picture, "not drawn");
     return background;

@@ -5,20 +5,18 @@
 
 namespace nuvo::x3d {
 
-Scene read_file(const std::filesystem::path& path, Headlight headlight, const Limits& limits,
-                const std::string& viewpoint) {
-    Messages messages;
-    Documents documents(limits, messages);
+Scene read_file(const std::filesystem::path& path, const ReadOptions& options) {
+    Messages messages(options.strict);
+    Documents documents(options.limits, messages);
     const Document& document = documents.read_file(path);
-    return SceneReader(documents, limits, messages).read(document, headlight, viewpoint);
+    return SceneReader(documents, options, messages).read(document);
 }
 
-Scene read_text(const std::string& text, const std::string& name, Headlight headlight,
-                const Limits& limits, const std::string& viewpoint) {
-    Messages messages;
-    Documents documents(limits, messages);
+Scene read_text(const std::string& text, const std::string& name, const ReadOptions& options) {
+    Messages messages(options.strict);
+    Documents documents(options.limits, messages);
     const Document& document = documents.read_text(text, name);
-    return SceneReader(documents, limits, messages).read(document, headlight, viewpoint);
+    return SceneReader(documents, options, messages).read(document);
 }
 
 }  // namespace nuvo::x3d

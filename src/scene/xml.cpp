@@ -36,48 +36,55 @@ class Pieces : public std::streambuf {
     std::size_t next_ = 0;
 };
 
+/// The children of one element while they are appended.
+struct Siblings {
+    Element* parent;
+    Element* last = nullptr;
+};
+
 class Reader {
   public:
-    Reader(const std::string& file, const std::vector<std::uint32_t>& lines, Names& names)
-        : file_(file), lines_(lines), names_(names) {}
+    Reader(const std::string& file, const std::vector<std::uint32_t>& lines, Names& names,
+           ElementArena& arena)
+        : file_(file), lines_(lines), names_(names), arena_(arena) {}
 
-    /// Appends what `root` holds to `roots`, in document order. No recursion: the document may be
-    /// as deep as the limits allow.
-    void read(const Outline& root, std::vector<Element>& roots) {
+    /// Appends what `root` holds to the children of `parent`. No recursion: the document may be as
+    /// deep as the limits allow.
+    void read(const Outline& root, Element& parent) {
         struct Open {
             const std::vector<Outline>* parts;
             std::size_t next;
-            std::vector<Element>* siblings;  // stays in place until all parts are read
+            Siblings siblings;
         };
-        std::vector<Open> open;
-        const auto enter = [&](const Outline& part, std::vector<Element>& siblings) {
+        const std::vector<Outline>* no_parts = nullptr;
+        std::vector<Open> open{{no_parts, 0, {&parent}}};
+        const auto enter = [&](const Outline& part) {
+            Siblings& siblings = open.back().siblings;
             if (!part.run.empty()) return read_run(part, siblings);
             // A large or deep element: its start tag alone, then its content part by part.
             read_tag(part, siblings);
-            std::vector<Element>& children = siblings.back().children;
-            children.reserve(part.children);
-            open.push_back({&part.parts, 0, &children});
+            open.push_back({&part.parts, 0, {siblings.last}});
         };
-        enter(root, roots);
-        while (!open.empty()) {
+        enter(root);
+        while (open.size() > 1) {
             Open& top = open.back();
             if (top.next == top.parts->size())
                 open.pop_back();
             else
-                enter((*top.parts)[top.next++], *top.siblings);
+                enter((*top.parts)[top.next++]);
         }
     }
 
   private:
-    void read_run(const Outline& part, std::vector<Element>& siblings) {
-        ptree tree = parse({"<run>", part.run, "</run>"}, part.line);
+    void read_run(const Outline& part, Siblings& siblings) {
+        const ptree tree = parse({"<run>", part.run, "</run>"}, part.line);
         append(tree.front().second, siblings);
     }
 
-    void read_tag(const Outline& part, std::vector<Element>& siblings) {
+    void read_tag(const Outline& part, Siblings& siblings) {
         const std::size_t name_end = part.tag.find_first_of(" \t\r\n/>");
         const std::string end_tag = "</" + std::string(part.tag.substr(1, name_end - 1)) + ">";
-        ptree tree = parse({part.tag, end_tag, ""}, part.line);
+        const ptree tree = parse({part.tag, end_tag, ""}, part.line);
         append(tree, siblings);
     }
 
@@ -95,40 +102,47 @@ class Reader {
         return tree;
     }
 
-    /// Moves the child elements of `parent` to the end of `siblings`.
-    void append(ptree& parent, std::vector<Element>& siblings) {
-        if (siblings.capacity() == 0) siblings.reserve(parent.size() - parent.count("<xmlattr>"));
-        for (auto& [name, tree] : parent) {
+    /// Copies the child elements of `tree` to the end of `siblings`.
+    void append(const ptree& tree, Siblings& siblings) {
+        for (const auto& [name, child] : tree) {
             if (name == "<xmlattr>") continue;
-            Element& element = siblings.emplace_back();
-            element.name = names_.keep(name);
+            Element& element = *arena_.make_element();
+            Element*& place =
+                siblings.last != nullptr ? siblings.last->next : siblings.parent->children.first;
+            place = siblings.last = &element;
+            names_.name_element(name, element);
             element.line = lines_[next_line_++];
-            const auto attributes = tree.find("<xmlattr>");
-            if (attributes != tree.not_found()) move_attributes(attributes->second, element);
-            append(tree, element.children);
+            // Attributes, if any, come first.
+            if (!child.empty() && child.front().first == "<xmlattr>")
+                copy_attributes(child.front().second, element);
+            Siblings children{&element};
+            append(child, children);
         }
     }
 
-    void move_attributes(ptree& from, Element& element) {
-        element.attributes.reserve(from.size());
-        for (auto& [name, value] : from)
-            element.attributes.push_back({names_.keep(name), std::move(value.data())});
+    void copy_attributes(const ptree& from, Element& element) {
+        const std::span<Attribute> attributes = arena_.make_attributes(from.size());
+        std::size_t i = 0;
+        for (const auto& [name, value] : from)
+            attributes[i++] = {names_.attribute_name(name, element), arena_.copy(value.data())};
+        element.attributes = attributes;
     }
 
     const std::string& file_;
     const std::vector<std::uint32_t>& lines_;
     Names& names_;
+    ElementArena& arena_;
     std::size_t next_line_ = 0;
 };
 
 }  // namespace
 
-Element parse_xml(std::string_view text, const std::string& file, const Limits& limits,
-                  Names& names) {
+Element& parse_xml(std::string_view text, const std::string& file, const Limits& limits,
+                   Names& names, ElementArena& arena) {
     const GuardedDocument document = guard_xml(text, file, limits);
-    std::vector<Element> roots;
-    Reader(file, document.lines, names).read(document.root, roots);
-    return std::move(roots.front());
+    Element above;
+    Reader(file, document.lines, names, arena).read(document.root, above);
+    return *above.children.first;
 }
 
 }  // namespace nuvo::x3d

@@ -9,7 +9,7 @@ namespace nuvo::x3d {
 namespace {
 
 /// Siblings are gathered into runs of up to this many bytes; the parser needs up to 100 times that.
-constexpr std::size_t kRunBytes = 256 * 1024;
+constexpr std::size_t kRunBytes = 32 * 1024;
 
 /// A run nests up to this many levels: the parser recurses, and it is not ours to give it the
 /// stack.

@@ -27,6 +27,19 @@ class BadInput : public ProgramTest {
         ::close(descriptor);
         return fs::remove(name);
     }
+    /// Left out with a warning, and refused by --strict.
+    void expect_left_out(const std::string& text, const std::vector<std::string>& parts) {
+        put("bad.x3d", text);
+        std::vector<std::string> all{"bad.x3d: "};
+        all.insert(all.end(), parts.begin(), parts.end());
+        const Outcome outcome = run({"--file=bad", "--rep=1", "--res=8,8"});
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        for (const std::string& part : all)
+            EXPECT_NE(outcome.err.find(part), std::string::npos) << part << "\n" << outcome.err;
+        EXPECT_NE(outcome.err.find("left out"), std::string::npos) << outcome.err;
+        fs::remove(folder_ / "bad.bmp");
+        expect_refused({"--file=bad", "--rep=1", "--res=8,8", "--strict"}, kRefused, all);
+    }
     static std::string sphere(const std::string& radius) {
         return "<X3D version='3.3'><Scene><Shape><Sphere radius='" + radius +
                "'/></Shape></Scene></X3D>";
@@ -67,22 +80,22 @@ TEST_F(BadInput, ADocumentWithoutASceneIsRefused) {
 }
 
 TEST_F(BadInput, ABadNumberIsNamedWithElementAndAttribute) {
-    expect_scene_refused(sphere("four"), {"Sphere", "radius", "four"});
-    expect_scene_refused(sphere("0.5m"), {"Sphere", "radius", "0.5m"});
-    expect_scene_refused(sphere("-1"), {"Sphere", "radius"});
+    expect_left_out(sphere("four"), {"Sphere", "radius", "four", "line 1"});
+    expect_left_out(sphere("0.5m"), {"Sphere", "radius", "0.5m", "line 1"});
+    expect_left_out(sphere("-1"), {"Sphere", "radius", "negative", "line 1"});
 }
 
-TEST_F(BadInput, NumbersThatAreNotFiniteAreRefused) {
+TEST_F(BadInput, NumbersThatAreNotFiniteAreNamed) {
     for (const char* number : {"nan", "NaN", "-nan", "inf", "1e400"})
-        expect_scene_refused(sphere(number), {"Sphere", "radius"});
+        expect_left_out(sphere(number), {"Sphere", "radius", number});
 }
 
 TEST_F(BadInput, AnIndexOutOfRangeIsNamed) {
-    expect_scene_refused(
+    expect_left_out(
         "<X3D version='3.0'><Scene><Shape><IndexedTriangleSet index='0 1 3'>"
         "<Coordinate point='0 0 0 1 0 0 0 1 0'/></IndexedTriangleSet></Shape></Scene></X3D>",
         {"IndexedTriangleSet", "index", "3"});
-    expect_scene_refused(
+    expect_left_out(
         "<X3D version='3.0'><Scene><Shape><IndexedFaceSet coordIndex='0 1 9 -1'>"
         "<Coordinate point='0 0 0 1 0 0 0 1 0'/></IndexedFaceSet></Shape></Scene></X3D>",
         {"IndexedFaceSet", "coordIndex", "9"});

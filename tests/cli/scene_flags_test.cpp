@@ -107,7 +107,7 @@ TEST_F(SceneFlags, DescribeSaysWhatWasReadAndDrawsNothing) {
           "viewpoints 2: front, back\n", "background sky (0 0 0)\n",
           "bounds     -2 -2 -3 to 9 9 3\n", "warnings   1\n"})
         EXPECT_NE(outcome.out.find(part), std::string::npos) << part << "not in\n" << outcome.out;
-    EXPECT_EQ(outcome.err, "nuvo: warning: Text: 1 not drawn (first at Scene/Shape[3]/Text)\n");
+    EXPECT_EQ(outcome.err, "nuvo: warning: a.x3d: Text: 1 not drawn (first at Scene/Shape[3]/Text, line 1)\n");
     for (const char* other : {"-compare", "--out=b.bmp", "--json=b.json", "-showoctree"})
         expect_refused({"--file=a", "--describe", other}, kUsage, {"--describe"});
 }

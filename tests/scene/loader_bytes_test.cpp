@@ -40,7 +40,7 @@ TEST(LoaderGzip, BombsAreRefusedWhileTheyUnpack) {
     const auto message = [&](const std::string& bytes, const x3d::Limits& limits) -> std::string {
         const std::filesystem::path path = folder.put("bomb.x3d", bytes);
         try {
-            x3d::read_file(path, x3d::Headlight::kAuto, limits);
+            x3d::read_file(path, {.limits = limits});
         } catch (const x3d::Error& error) {
             return std::string(error.what()).substr(path.string().size());
         }
@@ -64,10 +64,10 @@ TEST(LoaderLimits, FilesAreLimitedAtTheLimit) {
     x3d::Limits limits;
     for (const std::size_t more : {1, 0}) {
         limits.file_bytes = kScene.size() + more;
-        EXPECT_NO_THROW(x3d::read_file(path, x3d::Headlight::kAuto, limits));
+        EXPECT_NO_THROW(x3d::read_file(path, {.limits = limits}));
     }
     limits.file_bytes = kScene.size() - 1;
-    EXPECT_THROW(x3d::read_file(path, x3d::Headlight::kAuto, limits), x3d::Error);
+    EXPECT_THROW(x3d::read_file(path, {.limits = limits}), x3d::Error);
 }
 
 TEST(LoaderLimits, AttributesAreLimitedAtTheLimit) {

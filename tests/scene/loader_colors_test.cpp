@@ -50,7 +50,7 @@ TEST(LoaderColors, WithAlphaAreReadOpaque) {
     EXPECT_EQ(load(face_set("coordIndex='0 1 2'", "<ColorRGBA color='1 0 0 1 0 1 0 0.5 0 0 1 1'/>"))
                   .warnings,
               Strings{"ColorRGBA@color: 1 with alpha below 1: drawn opaque (first at "
-                      "Scene/Shape/IndexedFaceSet/ColorRGBA)"});
+                      "Scene/Shape/IndexedFaceSet/ColorRGBA, line 1)"});
     EXPECT_EQ(refusal(face_set("coordIndex='0 1 2'", "<ColorRGBA color='1 0 0'/>")),
               "scene.x3d: Scene/Shape/IndexedFaceSet/ColorRGBA@color: 3 numbers are no list of "
               "fours (line 1)");
@@ -72,7 +72,7 @@ TEST(LoaderColors, OfTrianglesBelongToTheirPoints) {
     EXPECT_EQ(color_at(mesh_of(set), 1, 2), (Color{1, 1, 0}));
     EXPECT_EQ(set.warnings,
               Strings{"IndexedTriangleSet@colorPerVertex: 1 of false taken as true, as for all "
-                      "sets of triangles (first at Scene/Shape/IndexedTriangleSet)"});
+                      "sets of triangles (first at Scene/Shape/IndexedTriangleSet, line 1)"});
 }
 
 TEST(LoaderColors, OfUnusedPointsAreDropped) {
@@ -101,7 +101,7 @@ TEST(LoaderMaterials, PhysicalOnesAreDrawnMattWithAWarning) {
     EXPECT_EQ(scene.materials.at(0).specular_color, (Color{0, 0, 0}));
     EXPECT_EQ(scene.warnings,
               Strings{"PhysicalMaterial: 1 drawn as a matt Material of its baseColor (first at "
-                      "Scene/Shape/Appearance/PhysicalMaterial)"});
+                      "Scene/Shape/Appearance/PhysicalMaterial, line 1)"});
 }
 
 TEST(LoaderMaterials, TheBacksAreNotTaken) {

@@ -96,7 +96,8 @@ TEST(LoaderFields, ValuesOutsideAColorsRangeAreClampedWithOneWarningPerField) {
     EXPECT_EQ(material.ambient_intensity, 0);
     EXPECT_EQ(material.specular_color, (Color{0, 0, 1}));
     EXPECT_EQ(material.emissive_color, (Color{1, 1, 1}));
-    const std::string first = " clamped to 0..1 (first at Scene/Shape[1]/Appearance/Material)";
+    const std::string first =
+        " clamped to 0..1 (first at Scene/Shape[1]/Appearance/Material, line 1)";
     EXPECT_EQ(scene.warnings,
               (std::vector<std::string>{
                   "Material@diffuseColor: 1" + first, "Material@ambientIntensity: 1" + first,

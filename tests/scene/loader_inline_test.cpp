@@ -11,12 +11,12 @@ class LoaderInline : public testing::Test {
   protected:
     void put(const std::string& name, const std::string& text) const { folder_.put(name, text); }
     Scene load_main(const std::string& nodes, const x3d::Limits& limits = {}) const {
-        return x3d::read_file(folder_.put("main.x3d", nodes), x3d::Headlight::kOff, limits);
+        return x3d::read_file(folder_.put("main.x3d", nodes), {limits, x3d::Headlight::kOff});
     }
     /// The message without the folder's name.
     std::string refusal_of(const std::string& text, const x3d::Limits& limits = {}) const {
         try {
-            load_main(text, limits);
+            x3d::read_file(folder_.put("main.x3d", text), {.limits = limits, .strict = true});
         } catch (const x3d::Error& error) {
             std::string message = error.what();
             const std::string name = folder_.path().string() + "/";
@@ -69,10 +69,10 @@ TEST_F(LoaderInline, WhatCannotBeLoadedIsLeftOutWithAWarning) {
     std::filesystem::create_directory(folder_.path() / "folder.x3d");
     for (const char* url : {"missing.x3d", "pictures.png", "folder.x3d"})
         EXPECT_EQ(warnings_of("<Inline url='" + std::string(url) + "'/>"),
-                  Strings{kMissing + "Scene/Inline)"})
+                  Strings{kMissing + "Scene/Inline, line 1)"})
             << url;
     EXPECT_EQ(warnings_of("<Inline/>"),
-              Strings{"Inline@url: 1 without a url left out (first at Scene/Inline)"});
+              Strings{"Inline@url: 1 without a url left out (first at Scene/Inline, line 1)"});
     EXPECT_TRUE(warnings_of("<Inline load='false' url='missing.x3d'/>").empty());
 }
 
@@ -88,13 +88,14 @@ TEST_F(LoaderInline, NothingOutsideTheFolderIsLoaded) {
           "../" + folder_.path().filename().string() + "/ball.x3d", std::string("link.x3d"),
           std::string("link/ball.x3d")}) {
         const Scene scene = load_main(bare("<Inline url='" + url + "'/>"));
-        EXPECT_EQ(scene.warnings, Strings{kOut + "Scene/Inline)"}) << url;
+        EXPECT_EQ(scene.warnings, Strings{kOut + "Scene/Inline, line 1)"}) << url;
         EXPECT_TRUE(scene.objects.empty()) << url;
     }
     EXPECT_EQ(load_main(bare("<Inline url='sub/inner.x3d'/>")).warnings,
               Strings{kOut.substr(0, kOut.size() - 3) + "in " +
-                      (folder_.path() / "sub/inner.x3d").string() + " at Scene/Inline)"});
-    EXPECT_EQ(load(bare("<Inline url='ball.x3d'/>")).warnings, Strings{kOut + "Scene/Inline)"});
+                      (folder_.path() / "sub/inner.x3d").string() + " at Scene/Inline, line 1)"});
+    EXPECT_EQ(load(bare("<Inline url='ball.x3d'/>")).warnings,
+              Strings{kOut + "Scene/Inline, line 1)"});
 }
 
 TEST_F(LoaderInline, CyclesAreRefused) {

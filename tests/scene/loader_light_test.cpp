@@ -110,9 +110,9 @@ TEST(LoaderLight, DegenerateOnesAreWarnedOf) {
     EXPECT_EQ(scene.warnings,
               (std::vector<std::string>{
                   "DirectionalLight@direction: 1 of length zero lighting nothing (first at "
-                  "Scene/DirectionalLight)",
+                  "Scene/DirectionalLight, line 1)",
                   "PointLight@radius: 1 shrunk to zero by a singular transform (first at "
-                  "Scene/Transform/PointLight)"}));
+                  "Scene/Transform/PointLight, line 1)"}));
 }
 
 // The objects: 0 before, 1 and 2 in the light's group, 3 after it.
@@ -159,7 +159,7 @@ TEST(LoaderLight, ThatReachesNoShapeIsWarnedOf) {
     const std::string nodes = kSphere + "<Transform><DirectionalLight/></Transform>";
     EXPECT_EQ(load(versioned("3.3", nodes)).warnings,
               std::vector<std::string>{"DirectionalLight: 1 reaching no shape (first at "
-                                       "Scene/Transform/DirectionalLight)"});
+                                       "Scene/Transform/DirectionalLight, line 1)"});
     EXPECT_TRUE(load(versioned("3.0", nodes)).warnings.empty());
 }
 

@@ -27,9 +27,10 @@ TEST(LoaderMesh, PolygonsBecomeFans) {
 TEST(LoaderMesh, FacesOfFewerThanThreeCornersAreLeftOutWithAWarning) {
     const Scene scene = load(bare(face_set("coordIndex='0 1 -1 2 -1 0 1 2 -1'")));
     EXPECT_EQ(mesh_of(scene).triangles, (Triples{{0, 1, 2}}));
-    EXPECT_EQ(scene.warnings, std::vector<std::string>{
-                                  "IndexedFaceSet@coordIndex: 2 with a face of fewer than three "
-                                  "corners left out (first at Scene/Shape/IndexedFaceSet)"});
+    EXPECT_EQ(
+        scene.warnings,
+        std::vector<std::string>{"IndexedFaceSet@coordIndex: 2 with a face of fewer than three "
+                                 "corners left out (first at Scene/Shape/IndexedFaceSet, line 1)"});
 }
 
 TEST(LoaderMesh, ZeroAreaTrianglesKeepTheirPlace) {

@@ -50,9 +50,9 @@ TEST(LoaderShape, TransparencyIsOpaqueUnlessItIsOne) {
     EXPECT_EQ(scene.shape_count, 3u);
     EXPECT_EQ(scene.warnings,
               (Strings{"Material@transparency: 1 between 0 and 1: drawn opaque (first at "
-                       "Scene/Shape[1]/Appearance/Material)",
+                       "Scene/Shape[1]/Appearance/Material, line 1)",
                        "Material@transparency: 1 of 1: not drawn (first at "
-                       "Scene/Shape[2]/Appearance/Material)"}));
+                       "Scene/Shape[2]/Appearance/Material, line 1)"}));
 }
 
 TEST(LoaderShape, AppearanceAndGeometryStandInAnyOrder) {
@@ -228,11 +228,12 @@ TEST(LoaderWarnings, NameEachKindOnceWithItsCountAndFirstPlace) {
                    "<Fog/></IndexedFaceSet>")));
     EXPECT_EQ(
         scene.warnings,
-        (Strings{"Text: 3 not drawn (first at Scene/Group[2]/Shape/Text)",
-                 "TimeSensor: 1 not drawn (first at Scene/TimeSensor)",
-                 "ImageTexture: 1 not drawn (first at Scene/Shape[2]/Appearance/ImageTexture)",
-                 "ROUTE: 1 not drawn (first at Scene/ROUTE)",
-                 "Fog: 1 not drawn (first at Scene/Shape[3]/IndexedFaceSet/Fog)"}));
+        (Strings{
+            "Text: 3 not drawn (first at Scene/Group[2]/Shape/Text, line 1)",
+            "TimeSensor: 1 not drawn (first at Scene/TimeSensor, line 1)",
+            "ImageTexture: 1 not drawn (first at Scene/Shape[2]/Appearance/ImageTexture, line 1)",
+            "ROUTE: 1 not drawn (first at Scene/ROUTE, line 1)",
+            "Fog: 1 not drawn (first at Scene/Shape[3]/IndexedFaceSet/Fog, line 1)"}));
     EXPECT_EQ(scene.shape_count, 4u);
     EXPECT_EQ(scene.objects.at(0).shape_index, 3u);
 }
@@ -267,7 +268,8 @@ TEST(LoaderWarnings, AreSilentAboutWhatHasNothingToDraw) {
 TEST(LoaderWarnings, AnUnreadableVersionCountsAsNone) {
     const Scene scene = load(versioned("three", "<SpotLight/>"));
     EXPECT_EQ(scene.lights.at(0).beam_width, 0.785398);
-    EXPECT_EQ(scene.warnings, Strings{"X3D@version: 1 not understood and left out (first at X3D)"});
+    EXPECT_EQ(scene.warnings,
+              Strings{"X3D@version: 1 not understood and left out (first at X3D, line 1)"});
 }
 
 TEST(LoaderWarnings, ManyKindsAreCutOff) {

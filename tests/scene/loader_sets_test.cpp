@@ -51,10 +51,10 @@ TEST(LoaderSets, RunsThatDoNotFitAreWarnedOfOrRefused) {
     EXPECT_EQ(mesh_of(shorts).triangles, (Triples{{0, 1, 2}}));
     EXPECT_EQ(shorts.warnings,
               Strings{"IndexedTriangleFanSet@index: 1 with fewer than three corners left out "
-                      "(first at Scene/Shape/IndexedTriangleFanSet)"});
+                      "(first at Scene/Shape/IndexedTriangleFanSet, line 1)"});
     EXPECT_EQ(load(node("TriangleFanSet", "fanCount='4'")).warnings,
               Strings{"TriangleFanSet@fanCount: 1 leaving points over (first at "
-                      "Scene/Shape/TriangleFanSet)"});
+                      "Scene/Shape/TriangleFanSet, line 1)"});
     EXPECT_EQ(refusal(node("TriangleStripSet", "stripCount='4 3'")),
               "scene.x3d: Scene/Shape/TriangleStripSet@stripCount: takes 3 of 2 points that are "
               "left (line 1)");
@@ -86,7 +86,7 @@ TEST(LoaderSets, QuadrilateralsTakeFourPointsOrIndicesEach) {
     const Scene quads = load(node("QuadSet", ""));
     EXPECT_EQ(mesh_of(quads).triangles, (Triples{{0, 1, 2}, {0, 2, 3}}));
     EXPECT_EQ(quads.warnings, Strings{"QuadSet@coord: 1 with an incomplete last quadrilateral "
-                                      "(first at Scene/Shape/QuadSet)"});
+                                      "(first at Scene/Shape/QuadSet, line 1)"});
 }
 
 TEST(LoaderSets, AnElevationGridIsSeenFromAboveRowsAlongX) {
@@ -144,7 +144,7 @@ TEST(LoaderSets, AnElevationGridOfTheWrongSizeIsRefused) {
               place + "xDimension: is negative (line 1)");
     EXPECT_EQ(load(node("ElevationGrid", "", "")).warnings,
               Strings{"ElevationGrid: 1 without triangles not drawn (first at "
-                      "Scene/Shape/ElevationGrid)"});
+                      "Scene/Shape/ElevationGrid, line 1)"});
 }
 
 }  // namespace

@@ -119,7 +119,7 @@ TEST(LoaderSolids, PartsCanBeLeftOut) {
     EXPECT_EQ(none.shape_count, 1u);
     EXPECT_EQ(none.warnings,
               std::vector<std::string>{
-                  "Cone: 1 without triangles not drawn (first at Scene/Shape/Cone)"});
+                  "Cone: 1 without triangles not drawn (first at Scene/Shape/Cone, line 1)"});
 }
 
 TEST(LoaderSolids, MirrorsAndUnequalScalesKeepTheOutsideOutside) {
@@ -147,7 +147,7 @@ TEST(LoaderSolids, NegativeSizesAreRefusedAndZeroOnesWarnedOf) {
               "scene.x3d: Scene/Shape/Cylinder@height: is negative (line 1)");
     const Scene plane = load(bare(shape("<Box size='2 0 2'/>")));
     EXPECT_EQ(plane.warnings,
-              std::vector<std::string>{"Box@size: 1 of zero (first at Scene/Shape/Box)"});
+              std::vector<std::string>{"Box@size: 1 of zero (first at Scene/Shape/Box, line 1)"});
     EXPECT_EQ(mesh_of(plane).bounds(), (Bounds3{{-1, 0, -1}, {1, 0, 1}}));
 }
 

@@ -77,7 +77,7 @@ TEST(LoaderTransform, AnAxisOfLengthZeroIsNoRotationWithAWarning) {
     EXPECT_EQ(mesh_of(scene).positions.at(0), (Point3{1, 0, 0}));
     EXPECT_EQ(scene.warnings,
               std::vector<std::string>{"Transform@rotation: 1 about an axis of length zero taken "
-                                       "as no rotation (first at Scene/Transform)"});
+                                       "as no rotation (first at Scene/Transform, line 1)"});
 }
 
 TEST(LoaderTransform, AnyLengthOfAxisTurnsAlike) {
@@ -117,9 +117,9 @@ TEST(LoaderSphere, OfRadiusZeroOrUnderAScaleOfZeroIsCountedButNotDrawn) {
     EXPECT_EQ(scene.objects[0].shape_index, 3u);
     EXPECT_EQ(scene.warnings,
               (std::vector<std::string>{
-                  "Sphere@radius: 1 of zero: not drawn (first at Scene/Shape[1]/Sphere)",
+                  "Sphere@radius: 1 of zero: not drawn (first at Scene/Shape[1]/Sphere, line 1)",
                   "Sphere: 2 flattened by a scale of zero: not drawn (first at "
-                  "Scene/Transform/Shape[1]/Sphere)"}));
+                  "Scene/Transform/Shape[1]/Sphere, line 1)"}));
 }
 
 TEST(LoaderTransform, AScaleOfZeroLeavesAFlatMeshWithAWarning) {

@@ -77,8 +77,8 @@ TEST(LoaderXml, EveryPrefixOfAFileIsRefused) {
 
 TEST(LoaderXml, RefusesDocumentsWithoutAScene) {
     EXPECT_EQ(refusal("<X3D version='3.3'>\n</X3D>"), "scene.x3d: X3D: has no Scene (line 1)");
-    EXPECT_EQ(refusal("\n<html/>"),
-              "scene.x3d: html: the root element is neither X3D nor Scene (line 2)");
+    EXPECT_EQ(refusal("\n<svg/>"),
+              "scene.x3d: svg: the root element is neither X3D nor Scene (line 2)");
     EXPECT_EQ(refusal("<X3D>\n<Scene/>\n<Scene/></X3D>"),
               "scene.x3d: Scene[2]: a second Scene (line 3)");
 }

@@ -24,13 +24,13 @@ inline std::string shape(const std::string& geometry) {
 
 inline Scene load(const std::string& text, x3d::Headlight headlight = x3d::Headlight::kAuto,
                   const x3d::Limits& limits = {}) {
-    return x3d::read_text(text, "scene.x3d", headlight, limits);
+    return x3d::read_text(text, "scene.x3d", {limits, headlight});
 }
 
-/// The message with which `text` is refused; empty when it is not.
+/// The message with which `text` is refused where reading is strict; empty when it is not.
 inline std::string refusal(const std::string& text, const x3d::Limits& limits = {}) {
     try {
-        load(text, x3d::Headlight::kAuto, limits);
+        x3d::read_text(text, "scene.x3d", {.limits = limits, .strict = true});
     } catch (const x3d::Error& error) {
         return error.what();
     }

@@ -125,7 +125,7 @@ TEST(Triangulation, PolygonsThatCrossThemselvesAreFansWithAWarning) {
     EXPECT_EQ(bow.warnings,
               std::vector<std::string>{
                   "IndexedFaceSet@coordIndex: 1 with a polygon that crosses itself drawn as a fan "
-                  "(first at Scene/Transform/Shape/IndexedFaceSet)"});
+                  "(first at Scene/Transform/Shape/IndexedFaceSet, line 1)"});
 }
 
 TEST(Triangulation, CornersTooManyToCutInTimeAreRefused) {

@@ -30,6 +30,7 @@ struct Options {
     InstructionSet isa = InstructionSet::kBest;
     x3d::Headlight headlight = x3d::Headlight::kAuto;
     std::string viewpoint;  ///< empty: the first
+    bool strict = false;    ///< what could be left out of a scene refuses it
     x3d::Limits limits;
     int max_side_pixels = kMaxSidePixels;
     std::optional<std::string> rays;

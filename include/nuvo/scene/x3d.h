@@ -32,15 +32,23 @@ inline constexpr std::size_t kMaxInlineDepth = 16;
 /// scene that has no light of its own.
 enum class Headlight { kAuto, kOn, kOff };
 
+/// How a file is read.
+struct ReadOptions {
+    Limits limits;
+    Headlight headlight = Headlight::kAuto;
+    /// Chooses the camera: a Viewpoint's DEF or description, or its number from 1 in document
+    /// order; empty: the first.
+    std::string viewpoint;
+    /// False: a field, node or Shape that cannot be read is left out with a warning. True: it
+    /// throws Error.
+    bool strict = false;
+};
+
 /// Reads an X3D file (XML encoding, perhaps packed by gzip; root X3D or a bare Scene) into world
-/// space. `viewpoint` chooses the camera: a Viewpoint's DEF or description, or its number from 1 in
-/// document order; empty: the first. Throws Error, and std::bad_alloc.
-Scene read_file(const std::filesystem::path& path, Headlight headlight = Headlight::kAuto,
-                const Limits& limits = {}, const std::string& viewpoint = {});
+/// space. Throws Error, and std::bad_alloc.
+Scene read_file(const std::filesystem::path& path, const ReadOptions& options = {});
 
 /// The same from the text of a file, which can Inline no other; `name` stands for it in messages.
-Scene read_text(const std::string& text, const std::string& name,
-                Headlight headlight = Headlight::kAuto, const Limits& limits = {},
-                const std::string& viewpoint = {});
+Scene read_text(const std::string& text, const std::string& name, const ReadOptions& options = {});
 
 }  // namespace nuvo::x3d
