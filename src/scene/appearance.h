@@ -19,6 +19,12 @@ class MaterialTable {
     /// nothing when it is wholly transparent.
     std::optional<std::uint32_t> look_up(const Element* appearance);
 
+    /// True for the unlit white of Shapes without a Material.
+    bool is_of_no_node(std::uint32_t material) const {
+        const auto found = known_.find(nullptr);
+        return found != known_.end() && found->second == material;
+    }
+
     std::vector<Material> take() { return std::move(materials_); }
 
   private:

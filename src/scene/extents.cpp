@@ -116,7 +116,10 @@ class Measurer {
 
 bool is_listing(const Element& child) {
     const std::string_view field = child.text("containerField");
-    return field == "joints" || field == "segments" || field == "sites";
+    for (const char* listing : {"joints", "segments", "sites", "skinCoord", "skinNormal",
+                                "skinBindingCoords", "skinBindingNormals", "displacers"})
+        if (field == listing) return true;
+    return false;
 }
 
 bool leads_to_shapes(const Element& child) {

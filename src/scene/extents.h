@@ -21,7 +21,7 @@ struct Extent {
 using InlineExtent = std::function<const Extent*(const Element& node)>;
 
 /// True for a child that lists again what stands elsewhere, as an HAnimHumanoid does with its
-/// joints: it is not drawn there.
+/// joints, or what moves it: it is not drawn there.
 bool is_listing(const Element& child);
 
 /// True where drawing goes on below a child of the scene graph: scripts, sensors and declarations

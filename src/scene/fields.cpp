@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <type_traits>
 
 namespace nuvo::x3d {
 
@@ -105,31 +106,36 @@ bool Fields::boolean(std::string_view name, bool fallback) const {
 }
 
 template <typename T>
-std::vector<T> Fields::words(std::string_view name, const char* type, const char* range) const {
+bool Fields::read_word(std::string_view name, std::string_view word, T& value) const {
+    constexpr bool kIsInteger = std::is_integral_v<T>;
+    const NumberVerdict verdict = read(word, value);
+    if (verdict == NumberVerdict::kNumber) return true;
+    const char* reason =
+        verdict == NumberVerdict::kNotANumber
+            ? (kIsInteger ? " is not an integer" : " is not a number")
+            : (kIsInteger ? " is beyond 32-bit integers" : " is beyond the range of double");
+    reject(name, in_quotes(word) + reason);
+    return false;
+}
+
+template <typename T>
+std::vector<T> Fields::words(std::string_view name) const {
     std::vector<T> values;
     const std::string_view* text = element_.find(name);
     if (text == nullptr) return values;
     std::string_view rest = *text;
     for (std::string_view word = next_word(rest); !word.empty(); word = next_word(rest)) {
         T value{};
-        const NumberVerdict verdict = read(word, value);
-        if (verdict != NumberVerdict::kNumber) {
-            reject(name, in_quotes(word) +
-                             (verdict == NumberVerdict::kNotANumber ? " is not " : " is beyond ") +
-                             (verdict == NumberVerdict::kNotANumber ? type : range));
-            return {};
-        }
+        if (!read_word(name, word, value)) return {};
         values.push_back(value);
     }
     return values;
 }
 
-std::vector<double> Fields::numbers(std::string_view name) const {
-    return words<double>(name, "a number", "the range of double");
-}
+std::vector<double> Fields::numbers(std::string_view name) const { return words<double>(name); }
 
 std::vector<std::int32_t> Fields::integers(std::string_view name) const {
-    return words<std::int32_t>(name, "an integer", "32-bit integers");
+    return words<std::int32_t>(name);
 }
 
 std::vector<std::string> Fields::strings(std::string_view name) const {
@@ -156,28 +162,48 @@ std::vector<std::string> Fields::strings(std::string_view name) const {
     return values;
 }
 
-std::vector<double> Fields::tuple(std::string_view name, std::size_t count) const {
-    if (!has(name)) return {};
-    std::vector<double> values = numbers(name);
-    if (values.size() == count || (values.empty() && !messages_.is_strict())) return values;
-    reject(name,
-           std::to_string(values.size()) + " numbers where " + std::to_string(count) + " belong");
-    return {};
+template <std::size_t N>
+bool Fields::tuple(std::string_view name, std::array<double, N>& values) const {
+    const std::string_view* text = given(name);
+    if (text == nullptr) return false;
+    std::array<double, N> read{};
+    std::size_t count = 0;
+    std::string_view rest = *text;
+    for (std::string_view word = next_word(rest); !word.empty(); word = next_word(rest)) {
+        double value = 0;
+        if (!read_word(name, word, value)) return false;
+        if (count < N) read[count] = value;
+        ++count;
+    }
+    if (count == N) {
+        values = read;
+        return true;
+    }
+    reject(name, std::to_string(count) + " numbers where " + std::to_string(N) + " belong");
+    return false;
 }
 
 double Fields::number(std::string_view name, double fallback) const {
-    const std::vector<double> values = tuple(name, 1);
-    return values.empty() ? fallback : values[0];
+    std::array<double, 1> values{fallback};
+    tuple(name, values);
+    return values[0];
+}
+
+std::array<double, 2> Fields::pair(std::string_view name, double first, double second) const {
+    std::array<double, 2> values{first, second};
+    tuple(name, values);
+    return values;
 }
 
 Vector3 Fields::vector(std::string_view name, const Vector3& fallback) const {
-    const std::vector<double> values = tuple(name, 3);
-    return values.empty() ? fallback : Vector3{values[0], values[1], values[2]};
+    std::array<double, 3> values{fallback.x, fallback.y, fallback.z};
+    tuple(name, values);
+    return {values[0], values[1], values[2]};
 }
 
 Matrix3 Fields::rotation(std::string_view name) const {
-    const std::vector<double> values = tuple(name, 4);
-    if (values.empty()) return {};
+    std::array<double, 4> values{};
+    if (!tuple(name, values)) return {};
     const Vector3 axis{values[0], values[1], values[2]};
     if (axis == Vector3{}) warn(name, "about an axis of length zero taken as no rotation");
     return nuvo::rotation(axis, values[3]);
@@ -262,11 +288,6 @@ std::vector<Matrix3> Fields::rotations(std::string_view name) const {
         matrices.push_back(
             nuvo::rotation({values[i], values[i + 1], values[i + 2]}, values[i + 3]));
     return matrices;
-}
-
-std::vector<double> Fields::pair(std::string_view name, double first, double second) const {
-    const std::vector<double> values = tuple(name, 2);
-    return values.empty() ? std::vector<double>{first, second} : values;
 }
 
 }  // namespace nuvo::x3d

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -59,7 +60,7 @@ class Fields {
     std::vector<Color> colors(std::string_view name) const;
 
     /// Two numbers (SFVec2f).
-    std::vector<double> pair(std::string_view name, double first, double second) const;
+    std::array<double, 2> pair(std::string_view name, double first, double second) const;
 
     std::vector<double> numbers(std::string_view name) const;
     /// An MFVec2f, each pair as x and z.
@@ -90,12 +91,15 @@ class Fields {
   private:
     /// The field's text; null when it is not given or empty.
     const std::string_view* given(std::string_view name) const;
-    /// The words of a field as values of type T, by read(word, value); none where one of them is
-    /// not of that type.
+    /// Reads a word; what is no value of type T is rejected, and false.
     template <typename T>
-    std::vector<T> words(std::string_view name, const char* type, const char* range) const;
-    /// The field's numbers, `count` of them; empty when it is not given.
-    std::vector<double> tuple(std::string_view name, std::size_t count) const;
+    bool read_word(std::string_view name, std::string_view word, T& value) const;
+    /// The words of a field; none where one of them is rejected.
+    template <typename T>
+    std::vector<T> words(std::string_view name) const;
+    /// Reads the field's numbers; false, and `values` as they were, when it is not given.
+    template <std::size_t N>
+    bool tuple(std::string_view name, std::array<double, N>& values) const;
     /// The field's numbers without an incomplete last one of `size` numbers each.
     std::vector<double> whole(std::string_view name, std::size_t size, const char* plural,
                               const char* single) const;

@@ -25,7 +25,7 @@ void take_all(MeshSource& source) {
 }  // namespace
 
 void read_rectangle(MeshSource& source) {
-    const std::vector<double> size = source.fields.pair("size", 2, 2);
+    const std::array<double, 2> size = source.fields.pair("size", 2, 2);
     if (size[0] < 0 || size[1] < 0) source.fields.fail("size", "is negative");
     if (size[0] == 0 || size[1] == 0) source.fields.warn("size", "of zero");
     const double x = size[0] / 2, y = size[1] / 2;

@@ -147,6 +147,14 @@ NodeKind node_kind(std::string_view name) {
     return found == kinds.end() ? NodeKind::kNotDrawn : found->second;
 }
 
+std::string_view missing_part(std::string_view name) {
+    if (name.starts_with("Geo")) return "drawn without its geographic coordinates";
+    if (name == "LayoutGroup" || name == "LayoutLayer" || name == "ScreenGroup")
+        return "drawn as a Group, not laid out on the screen";
+    if (name == "Viewport") return "drawn as a Group, not clipped";
+    return {};
+}
+
 bool is_silent(std::string_view name) { return kSilent.contains(name); }
 
 std::string_view right_spelling(std::string_view name) {

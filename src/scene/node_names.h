@@ -28,6 +28,9 @@ enum class NodeKind {
 /// The kind of a node of the scene graph, by its name.
 NodeKind node_kind(std::string_view name);
 
+/// What a grouping node is drawn without, for a warning; empty where nothing is missing.
+std::string_view missing_part(std::string_view name);
+
 /// True for kinds that hold Shapes: all groups, and a Shape itself.
 inline bool is_drawable(NodeKind kind) {
     return kind >= NodeKind::kGroup && kind <= NodeKind::kShape;

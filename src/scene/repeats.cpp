@@ -1,6 +1,8 @@
 #include "repeats.h"
 
+#include <algorithm>
 #include <bit>
+#include <utility>
 
 namespace nuvo::x3d {
 
@@ -64,12 +66,28 @@ bool same_surface(const Shape& a, const Shape& b) {
 }  // namespace
 
 bool Repeats::is_repeat(const Shape& shape, const std::vector<Object>& objects) {
+    if (2 * (used_ + 1) > slots_.size()) {
+        constexpr std::size_t kFirstSize = 64;  // a power of two, as all are
+        const std::vector<Slot> old =
+            std::exchange(slots_, std::vector<Slot>(std::max(kFirstSize, 2 * slots_.size())));
+        for (const Slot& slot : old)
+            if (slot.object != kFree) insert(slot);
+    }
     const std::uint64_t hash = hash_of(shape);
-    const auto [first, last] = objects_.equal_range(hash);
-    for (auto known = first; known != last; ++known)
-        if (same_surface(objects[known->second].shape, shape)) return true;
-    objects_.emplace(hash, static_cast<std::uint32_t>(objects.size()));
+    const std::size_t mask = slots_.size() - 1;
+    for (std::size_t i = hash & mask; slots_[i].object != kFree; i = (i + 1) & mask)
+        if (slots_[i].hash == hash && same_surface(objects[slots_[i].object].shape, shape))
+            return true;
+    insert({hash, static_cast<std::uint32_t>(objects.size())});
+    ++used_;
     return false;
+}
+
+void Repeats::insert(Slot slot) {
+    const std::size_t mask = slots_.size() - 1;
+    std::size_t i = slot.hash & mask;
+    while (slots_[i].object != kFree) i = (i + 1) & mask;
+    slots_[i] = slot;
 }
 
 }  // namespace nuvo::x3d

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <unordered_map>
 #include <vector>
 
 #include "nuvo/scene/scene.h"
@@ -18,7 +17,17 @@ class Repeats {
     bool is_repeat(const Shape& shape, const std::vector<Object>& objects);
 
   private:
-    std::unordered_multimap<std::uint64_t, std::uint32_t> objects_;  // by a hash of the surface
+    struct Slot {
+        std::uint64_t hash = 0;
+        std::uint32_t object = kFree;
+    };
+    static constexpr std::uint32_t kFree = ~std::uint32_t{0};
+
+    void insert(Slot slot);
+
+    // A hash table with open addressing: slots of one hash follow each other from hash % size on.
+    std::vector<Slot> slots_;
+    std::size_t used_ = 0;
 };
 
 }  // namespace nuvo::x3d

@@ -11,6 +11,7 @@ Scene SceneReader::read(const Document& document) {
     version_ = document.version;
     file_ = document.name;
     length_unit_ = document.units.length;
+    scene_.objects.reserve(document.extent.shapes);
     if (documents_.has_levels()) find_camera_first(*document.scene);
     read_children(*document.scene, {});
     check_viewpoint();
@@ -64,13 +65,13 @@ void SceneReader::read_only(const Element* chosen, const Element& parent,
 }
 
 void SceneReader::read_child(const Element& child, Group& group) {
+    if (is_listing(child)) return;
     const Element& node = child.node();
     const NodeKind kind = node_kind(node.name);
     if (kind == NodeKind::kNotDrawn) {
         if (!is_silent(node.name)) warn_not_drawn(child, messages_);
         return;
     }
-    if (is_listing(child)) return;
     if (is_drawable(kind) &&
         (is_proxy(child) || !Fields(node, messages_).boolean("visible", true))) {
         count_hidden(child);
@@ -79,6 +80,9 @@ void SceneReader::read_child(const Element& child, Group& group) {
     const bool may_view =
         (is_drawable(kind) && kind != NodeKind::kShape) || kind == NodeKind::kViewpoint;
     if (looking_for_camera_ && !may_view) return;
+    if (kind == NodeKind::kGroup || kind == NodeKind::kTransform)
+        if (const std::string_view missing = missing_part(node.name); !missing.empty())
+            messages_.warn(node.name, missing, child);
     try {
         read_node(kind, node, group);
     } catch (const LeftOut& left_out) {
@@ -154,10 +158,12 @@ void SceneReader::read_level_of_detail(const Element& node, Group& group) {
 void SceneReader::read_inline(const Element& node, Group& group) {
     const Document* document = documents_.inlined(node);
     if (document == nullptr) return;
+    const double scale = document->units.length / length_unit_;
+    if (!std::isfinite(scale) || scale == 0)
+        Fields(node, messages_).fail("url", "its file's unit of length is beyond double here");
     const Version outer = version_;
     version_ = document->version;
     ++inline_depth_;
-    const double scale = document->units.length / length_unit_;
     read_children(*document->scene, group.placement.scaled(scale));
     --inline_depth_;
     version_ = outer;
@@ -192,6 +198,9 @@ void SceneReader::read_shape(const Element& node, Group& group) {
                        node);
         return;
     }
+    if (materials_.is_of_no_node(*material))
+        messages_.warn(node.name, "without a Material drawn unlit, white or in colors of its own",
+                       node);
     const bool solid =
         Fields(*geometry, messages_).boolean("solid", !geometry->name.ends_with("2D"));
     scene_.objects.push_back({std::move(*shape), *material, shape_index, solid});

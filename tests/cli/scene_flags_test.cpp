@@ -105,9 +105,12 @@ TEST_F(SceneFlags, DescribeSaysWhatWasReadAndDrawsNothing) {
           "point, at 0 0 0, color 1 1 1, intensity 1, radius 7\n",
           "camera     at 0 0 10, along 0 0 -1, up 0 1 0, field of view 45 degrees\n",
           "viewpoints 2: front, back\n", "background sky (0 0 0)\n",
-          "bounds     -2 -2 -3 to 9 9 3\n", "warnings   1\n"})
+          "bounds     -2 -2 -3 to 9 9 3\n", "warnings   2\n"})
         EXPECT_NE(outcome.out.find(part), std::string::npos) << part << "not in\n" << outcome.out;
-    EXPECT_EQ(outcome.err, "nuvo: warning: a.x3d: Text: 1 not drawn (first at Scene/Shape[3]/Text, line 1)\n");
+    EXPECT_EQ(outcome.err,
+              "nuvo: warning: a.x3d: Shape: 2 without a Material drawn unlit, white or in colors "
+              "of its own (first at Scene/Transform/Shape, line 1)\n"
+              "nuvo: warning: a.x3d: Text: 1 not drawn (first at Scene/Shape[3]/Text, line 1)\n");
     for (const char* other : {"-compare", "--out=b.bmp", "--json=b.json", "-showoctree"})
         expect_refused({"--file=a", "--describe", other}, kUsage, {"--describe"});
 }

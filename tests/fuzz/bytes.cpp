@@ -34,9 +34,7 @@ std::string mutation_word(Chooser& choose, const Target& target) {
     return target.words[static_cast<std::size_t>(choose.below(n))];
 }
 
-}  // namespace
-
-void take_scene(std::string_view bytes) {
+void take_scene(std::string_view bytes, bool strict) {
     x3d::Limits limits;  // small ones, so that time goes into variety
     limits.depth = 200;
     limits.elements = 2000;
@@ -46,7 +44,7 @@ void take_scene(std::string_view bytes) {
     limits.file_bytes = 1'000'000;
     try {
         const Scene scene =
-            x3d::read_text(std::string(bytes), "fuzz", x3d::Headlight::kAuto, limits);
+            x3d::read_text(std::string(bytes), "fuzz", {.limits = limits, .strict = strict});
         const Primitives primitives = flatten(scene, LeafContent::kPrimitives);
         for (const Bounds3& box : primitives.item_boxes)
             if (!finite(box.min) || !finite(box.max))
@@ -55,6 +53,12 @@ void take_scene(std::string_view bytes) {
     } catch (const x3d::Error& error) {
         expect_line(error.what());
     }
+}
+
+}  // namespace
+
+void take_scene(std::string_view bytes) {
+    for (const bool strict : {false, true}) take_scene(bytes, strict);
 }
 
 void take_rays(std::string_view bytes) {

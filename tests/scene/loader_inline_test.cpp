@@ -31,7 +31,7 @@ class LoaderInline : public testing::Test {
     TemporaryFolder folder_;
 };
 
-const std::string kBall = "<Shape><Sphere radius='2'/></Shape>";
+const std::string kBall = shape("<Sphere radius='2'/>");
 const std::string kOut = "Inline@url: 1 leading out of the scene's folder left out (first at ";
 const std::string kMissing =
     "Inline@url: 1 naming no X3D file that can be read left out (first at ";
@@ -49,7 +49,7 @@ TEST_F(LoaderInline, StandsWhereItIsPlaced) {
 }
 
 TEST_F(LoaderInline, TakesTheFirstUrlThatCanBeLoaded) {
-    put("two.x3d", bare(kBall + "<Shape><Sphere radius='3'/></Shape>"));
+    put("two.x3d", bare(kBall + shape("<Sphere radius='3'/>")));
     put("one.x3d", bare(kBall));
     const Scene scene = load_main(
         bare("<Inline url='\"missing.x3d\" \"http://example.org/one.x3d\" \"two.x3d#View\", "

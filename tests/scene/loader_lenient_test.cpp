@@ -119,7 +119,7 @@ TEST(LoaderLenient, UseOfNothingIsLeftOut) {
 TEST(LoaderLenient, UseBeforeItsDefinitionNamesTheLaterOne) {
     const std::string nodes =
         "<Transform translation='9 0 0'><Shape USE='s'/></Transform>"
-        "<Shape DEF='s'><Sphere/></Shape>";
+        "<Shape DEF='s'><Appearance><Material/></Appearance><Sphere/></Shape>";
     const Scene scene = load(bare(nodes));
     ASSERT_EQ(scene.objects.size(), 2u);
     EXPECT_EQ(std::get<Sphere>(scene.objects[0].shape).center, (Point3{9, 0, 0}));
@@ -135,9 +135,9 @@ TEST(LoaderLenient, UseBeforeItsDefinitionNamesTheLaterOne) {
 }
 
 TEST(LoaderLenient, UseOfAnotherKindDrawsWhatItNames) {
-    const std::string nodes =
-        "<Group DEF='door'><Shape><Sphere/></Shape></Group>"
-        "<Transform translation='9 0 0'><Shape USE='door'/></Transform>";
+    const std::string nodes = "<Group DEF='door'>" + kBall +
+                              "</Group>"
+                              "<Transform translation='9 0 0'><Shape USE='door'/></Transform>";
     const Scene scene = load(bare(nodes));
     ASSERT_EQ(scene.objects.size(), 2u);
     EXPECT_EQ(std::get<Sphere>(scene.objects[1].shape).center, (Point3{9, 0, 0}));
@@ -154,6 +154,7 @@ TEST(LoaderLenient, ScriptsAndSensorsMayReferToAnything) {
         const Scene scene = load(bare("<Transform DEF='t'>" + kBall + script +
                                       "</Transform>"
                                       "<Transform translation='9 0 0'><Shape DEF='late'><Sphere/>"
+                                      "<Appearance><Material/></Appearance>"
                                       "</Shape></Transform>"));
         EXPECT_EQ(scene.objects.size(), 2u) << field;
         EXPECT_EQ(scene.warnings,

@@ -259,7 +259,8 @@ TEST(LoaderWarnings, AreSilentAboutWhatHasNothingToDraw) {
         load(
             "<X3D version='3.3' profile='Immersive' unknown='1'><head><meta name='a'/><component/>"
             "</head><Scene><WorldInfo title='t'/><MetadataString/><ProtoDeclare><ProtoBody><Shape/>"
-            "</ProtoBody></ProtoDeclare><Shape><MetadataSet/><IndexedFaceSet coordIndex='0 1 2' "
+            "</ProtoBody></ProtoDeclare><Shape><MetadataSet/><Appearance><Material/></"
+            "Appearance><IndexedFaceSet coordIndex='0 1 2' "
             "texCoordIndex='0 1 2'><Coordinate point='0 0 0 1 0 0 0 1 0'/><TextureCoordinate "
             "point='x'/></IndexedFaceSet></Shape></Scene></X3D>")
             .warnings.empty());
