@@ -34,11 +34,11 @@ enum class Headlight { kAuto, kOn, kOff };
 
 /// How a file is read.
 struct ReadOptions {
-    Limits limits;
+    Limits limits{};
     Headlight headlight = Headlight::kAuto;
     /// Chooses the camera: a Viewpoint's DEF or description, or its number from 1 in document
     /// order; empty: the first.
-    std::string viewpoint;
+    std::string viewpoint{};
     /// False: a field, node or Shape that cannot be read is left out with a warning. True: it
     /// throws Error.
     bool strict = false;
