@@ -31,11 +31,14 @@ Color Background::color(const Vector3& direction) const {
     if (sky_color.size() == 1 && ground_color.size() == 1 && sky_angle.empty() &&
         ground_angle.empty())
         return sky_color[0] * ((y + 1) / 2) + ground_color[0] * ((1 - y) / 2);  // [eq. 36]
+    // Of an arc cosine narrow bands around the poles would come out in steps.
+    const double across = std::sqrt(direction.x * direction.x + direction.z * direction.z);
     // The ground is a hemisphere laid over the sky.
-    if (!ground_color.empty() && y <= 0) return gradient(ground_color, ground_angle, std::acos(-y));
+    if (!ground_color.empty() && y <= 0)
+        return gradient(ground_color, ground_angle, std::atan2(across, -y));
     if (sky_color.empty()) return {};
     if (sky_color.size() == 1) return sky_color[0];
-    return gradient(sky_color, sky_angle, std::acos(y));
+    return gradient(sky_color, sky_angle, std::atan2(across, y));
 }
 
 }  // namespace nuvo

@@ -14,6 +14,7 @@ void powers(const float* z, const float* exponent, float* out) {
     power_of_complement(Floats::load(z), Floats::load(exponent)).store(out);
 }
 void arcs(const float* x, float* out) { arc_cosine(Floats::load(x)).store(out); }
+void arc_sines(const float* x, float* out) { arc_sine(Floats::load(x)).store(out); }
 void inverse_roots(const float* x, float* out) { inverse_sqrt(Floats::load(x)).store(out); }
 void reciprocals(const float* x, float* out) { reciprocal(Floats::load(x)).store(out); }
 
@@ -108,6 +109,28 @@ TEST(VectorMath, ArcsStayWithinTheirBound) {
         RecordProperty("units" + std::to_string(static_cast<int>(isa)),
                        std::to_string(most / kUnit));
         EXPECT_LE(most, 8 * kUnit) << most / kUnit << " units";
+    }
+}
+
+TEST(VectorMath, ArcSinesStayWithinTheirRelativeBound) {
+    constexpr int kSteps = 1 << 20;
+    for (const InstructionSet isa : supported_instruction_sets()) {
+        const auto error = [](double x, double y) {
+            return x == 0 ? y : std::fabs(y / std::asin(x) - 1);
+        };
+        const auto even = [=](int i) {
+            return static_cast<float>(std::sqrt(0.5) * std::min(i, kSteps) / kSteps);
+        };
+        const auto small = [](int i) {
+            return std::ldexp(1 + static_cast<float>(i % 1024) / 1024, -(i / 1024));
+        };
+        const Unary f = NUVO_FOR_ISA(isa, arc_sines);
+        const double most =
+            std::max(worst(f, kSteps + kLanes, even, error),
+                     worst(
+                         f, 1 << 16, [&](int i) { return small(i + 1024); }, error));
+        EXPECT_LE(most, 16 * kUnit) << most / kUnit << " units";
+        EXPECT_GT(most, 0);
     }
 }
 

@@ -73,6 +73,27 @@ TEST(SampleLight, SpotFallsOffLinearlyInTheAngle) {
     EXPECT_FALSE(sample_light(spot, {0, 0, 1}));  // behind it
 }
 
+// A spot from 1e7 away that lights half a unit: at 0.25 across, the angle is 2.5e-8 to the last
+// digits (the arc of x is x - x^3 / 3), half of the cone; the cosine's nearest doubles are 1.5e-8
+// apart there.
+TEST(SampleLight, NarrowSpotsFallOffSmoothly) {
+    Light spot = point_light({0, 0, 1e7});
+    spot.kind = Light::Kind::kSpot;
+    spot.direction = {0, 0, -1};
+    spot.radius = std::numeric_limits<double>::infinity();
+    spot.beam_width = 0;
+    spot.cut_off_angle = 5e-8;
+    for (const double x : {0.0, 0.01, 0.1, 0.25, 0.333, 0.49})
+        EXPECT_NEAR(sample_light(spot, {x, 0, 0})->strength, 1 - 2 * x, 1e-8) << x;
+    EXPECT_FALSE(sample_light(spot, {0, 0.51, 0}));
+    // Skew: (3, 4, 12) / 13 is a unit vector, and (4, -3, 0) / 5 is perpendicular to it.
+    spot.location = {-3e7, -4e7, -12e7};
+    spot.direction = {3.0 / 13, 4.0 / 13, 12.0 / 13};
+    spot.cut_off_angle = 2.0 / 13e7;
+    for (const double x : {0.0, 0.125, 0.5, 1.0, 1.75})
+        EXPECT_NEAR(sample_light(spot, {0.8 * x, -0.6 * x, 0})->strength, 1 - x / 2, 1e-7) << x;
+}
+
 // Light at 60 degrees from the normal, viewer on the normal; halfway vector at 30 degrees.
 TEST(LightContribution, SumsAmbientDiffuseAndSpecular) {
     Light light;

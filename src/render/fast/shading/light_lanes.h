@@ -68,20 +68,31 @@ struct Factor {
     RayMask perhaps;  ///< false: surely beyond the radius or outside of the cone
 };
 
-/// [eq. 40, 41] The factor falls with the angle, so its ends are those of the angle's bounds.
+/// [eq. 40, 41] The factor falls with the angle, so its ends are those of the angle's bounds. The
+/// angle is twice the arc sine of half the chord between the unit vectors, which near the axis
+/// keeps its digits. [numerics: angles]
 HWY_INLINE void weaken_by_cone(const ShadingLight& light, const ToLight& toward, Factor& factor) {
-    Floats cosine(0.0F);
-    for (int axis = 0; axis < 3; ++axis)
-        cosine = mul_add(toward.to[axis], Floats(-light.axis[axis]), cosine);
-    cosine = cosine * toward.inverse;
-    // 3 roundings of the product with a rounded axis, one more with the inverse.
-    const Floats error = toward.relative + Floats(5.2F * kFloatRoundoff);
-    const auto angle = [](const Floats& c)
-                           HWY_ATTR { return arc_cosine(min(max(c, Floats(0.0F)), Floats(1.0F))); };
-    // Roundings of angles up to pi / 2: the limits' and the differences'.
-    const Floats margin(kArcError + 8 * kFloatRoundoff);
-    const Floats least = angle(cosine + error) - margin;
-    const Floats most = angle(cosine - error) + margin;
+    Floats square(0.0F);
+    for (int axis = 0; axis < 3; ++axis) {
+        const Floats chord = mul_add(toward.to[axis], toward.inverse, Floats(light.axis[axis]));
+        square = mul_add(chord, chord, square);
+    }
+    const Floats chord = sqrt(square);
+    // Of a length up to 1.42: the way's, those of the axis and the product (1 each), of the
+    // difference (1.42), of the square by half and of the root (2.5 x 1.42).
+    const Floats error = toward.relative + Floats(7.1F * kFloatRoundoff);
+    // Behind the light it is a right angle.
+    const auto angle = [](const Floats& c) HWY_ATTR {
+        constexpr float kRootOfHalf = 0.70710678F;
+        const Floats half = min(max(c * Floats(0.5F), Floats(0.0F)), Floats(kRootOfHalf));
+        const Floats arc = arc_sine(half);
+        return arc + arc;
+    };
+    // The limit's rounding, and those of differences from it.
+    const Floats margin(3 * kFloatRoundoff * light.cut_off);
+    // Bounds of arcs that round a little more than arc_sine() does.
+    const Floats least = angle(chord - error) * Floats(1 - 2 * kArcSineError) - margin;
+    const Floats most = angle(chord + error) * Floats(1 + 2 * kArcSineError) + margin;
     const Floats one(1.0F);
     Floats high;
     Floats low;
