@@ -16,10 +16,10 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 // Of the float stages that use it.
 float bound(double value) { return rounded_up(value + kFloatUnderflow); }
 
-CameraSphere make_sphere(const Point3& eye, double scale, const Point3& center, double radius,
+// `r` in the local frame.
+CameraSphere make_sphere(const Point3& eye, double scale, const Point3& center, double r,
                          double direction) {
     const Vector3 from = (eye - center) * scale;
-    const double r = radius * scale;
     const double ff = dot(from, from);
     const double power = ff - r * r;
     // f carries one rounding, its square and r's three more.
@@ -70,11 +70,13 @@ void CameraTables::take_quadrics(QuadricSpan quadrics) {
         const Shape& shape = object.shape;
         CameraSphere& out = spheres[quadric.slot - scene_.triangle_end()];
         if (const auto* sphere = std::get_if<Sphere>(&shape)) {
-            out = make_sphere(eye, scale, sphere->center, sphere->radius, direction);
+            out = make_sphere(eye, scale, sphere->center, sphere->radius * scale, direction);
         } else {
             const Bounds3 box = bounds(shape);
-            const double radius = 0.5 * length(box.widths()) * (1 + gamma(64));
-            out = make_sphere(eye, scale, box.center(), radius, direction);
+            // Halves do not overflow.
+            const Vector3 half = (box.max * 0.5 - box.min * 0.5) * scale;
+            const double r = length(half) * (1 + gamma(64)) + kFloatUnderflow;
+            out = make_sphere(eye, scale, box.center(), r, direction);
             out.exactly = true;
         }
         out.material = object.material;

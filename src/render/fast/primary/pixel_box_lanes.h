@@ -68,7 +68,7 @@ class PixelBoxMaker {
             }
         }
         // Comparisons with NaN or infinity are false.
-        const auto known = (low[2] > least) & (least < Singles(kLargest));
+        const auto known = (low[2] > max(least, Singles(kLeast))) & (least < Singles(kLargest));
         write(low, high, known, high[2] < -least, Singles(1.0F) / low[2], out, count);
     }
 
@@ -101,7 +101,8 @@ class PixelBoxMaker {
         }
         const Singles reach = rounded(abs(p[0]) + abs(p[1]) + abs(p[2])) + r;
         const Singles least = reach * Singles(kLeastDepth);
-        const auto known = (z > r + r) & (z > least) & (least < Singles(kLargest));
+        const auto known =
+            (z > r + r) & (z > max(least, Singles(kLeast))) & (least < Singles(kLargest));
         write(low, high, known, z + r < -least, Singles(1.0F) / (z - r), out, count);
     }
 
@@ -110,6 +111,9 @@ class PixelBoxMaker {
     // of the dot products in double is at most 2^-50 2^16 of a depth.
     static constexpr float kLeastDepth = 0x1p-16F;
     static constexpr float kLargest = 0x1p60F;
+    // Nor are those whose square's inverse is beyond floats, or so that roundings below the normal
+    // range could matter.
+    static constexpr float kLeast = 0x1p-40F;
     // In pixels: more than the rounding of a coordinate up to kMostBoxPixels, and that of the dot
     // products, which is 2^-34 of the view's depth.
     static constexpr float kMargin = 0x1p-6F;
@@ -120,7 +124,7 @@ class PixelBoxMaker {
         const hn::FixedTag<float, kPart> floats;
         alignas(64) float out[kGroup];
         for (std::size_t i = 0; i < Numbers::Shape::kParts; ++i)
-            hn::StoreU(hn::DemoteTo(floats, v.part[i]), floats, out + i * kPart);
+            hn::StoreU(to_floats(floats, v.part[i]), floats, out + i * kPart);
         return Singles::load(out);
     }
     HWY_INLINE Singles along(int k, const Numbers (&p)[3]) const {

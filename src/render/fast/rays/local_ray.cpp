@@ -73,7 +73,6 @@ LocalRay::LocalRay(const Ray& ray, const LocalFrame& frame, float reach) {
     const Vector3 d = ray.direction * unit;
     scale = frame.scale / unit;
     if (!(scale > 1 / kRange && scale < kRange)) return;
-    valid = true;
 
     constexpr double kNear = 4;  // origins within this are as good as in the box
     error = 0x1p-50 * (far + kNear);
@@ -91,6 +90,11 @@ LocalRay::LocalRay(const Ray& ray, const LocalFrame& frame, float reach) {
         o = point.high;
         error = 0x1p-50 * (max_norm(o) + kNear) + kTries * 0x1p-96 * (far + advance);
     }
+    // So all numbers of the slabs, at most 2^60 times these, stay finite as floats: an infinite one
+    // would let the ray into the boxes of unused lanes.
+    constexpr double kFarthest = 0x1p60;
+    valid = max_norm(o) < kFarthest && error < kFarthest;
+    if (!valid) return;
     // After an advance nothing is met before s = 1/2: the box is 1 away on an axis, and |d| < 2.
     behind = advance > 0 ? -0.25F : 0.0F;
     for (int axis = 0; axis < 3; ++axis) {

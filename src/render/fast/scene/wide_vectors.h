@@ -26,7 +26,7 @@ HWY_INLINE void store_rounded(const Wide& v, float* to) {
     constexpr std::size_t kPart = Wide::Shape::kPart;
     const hn::FixedTag<float, kPart> floats;
     for (std::size_t i = 0; i < Wide::Shape::kParts; ++i)
-        hn::StoreU(hn::DemoteTo(floats, v.part[i]), floats, to + i * kPart);
+        hn::StoreU(to_floats(floats, v.part[i]), floats, to + i * kPart);
 }
 
 struct Wide3 {

@@ -60,7 +60,10 @@ ShadingMaterial shading_material(const Material& m) {
     out.diffuse_most = rounded_up(largest(m.diffuse_color) * kFullByte);
     out.specular_most = rounded_up(largest(m.specular_color) * kFullByte);
     out.ambient = rounded(m.ambient_intensity);
+    // Never 0 unless it is: 0^0 is 1, and 0 to any other power 0. All exponents below the least
+    // normal number give 1 to the last bit where the cosine is surely positive.
     out.exponent = rounded(128 * m.shininess);
+    if (m.shininess > 0) out.exponent = std::max(out.exponent, std::numeric_limits<float>::min());
     return out;
 }
 
@@ -165,8 +168,12 @@ void place_light(const ShadingTables& tables, const Light& exact, ShadingLight& 
     const double scale = scene.frame().scale;
     const Point3 location = scene.frame().local(exact.location);
     for (int axis = 0; axis < 3; ++axis) light.location[axis] = rounded(location[axis]);
-    light.location_error = rounded_up(
-        kSlack * (kFloatRoundoff * length(location) + world_rounding(scene, exact.location)));
+    // Where floats can square the way.
+    constexpr double kFarthest = 0x1p60;
+    light.location_error = max_norm(location) < kFarthest
+                               ? rounded_up(kSlack * (kFloatRoundoff * length(location) +
+                                                      world_rounding(scene, exact.location)))
+                               : std::numeric_limits<float>::infinity();
     const Vector3& a = exact.attenuation;
     light.attenuated = a.x > 1 || a.y != 0 || a.z != 0;
     const double unit = exact.units_per_world / scale;

@@ -51,7 +51,8 @@ class SmoothFunctions {
         const Wide3 at = along(camera.forward) + right * x + down * y;
         const Wide scale = sign / max_norm(at);
         const Wide edges = norm1(t.e1) + norm1(t.e2);
-        const Wide noise = (norm1(t.from) + edges) * edges * largest * Wide(8 * 0x1p-49 * longest);
+        const Wide noise = (norm1(t.from) + edges) * edges * largest * Wide(8 * 0x1p-49 * longest) +
+                           Wide(kSmallest);
         put(at * scale, 0);
         put(right * scale, 3);
         put(down * scale, 6);
@@ -78,6 +79,9 @@ class SmoothFunctions {
     }
 
   private:
+    // Products that matter beside it have lost nothing to underflow.
+    static constexpr double kSmallest = 0x1p-1000;
+
     // The coordinate at which the point is seen, an integer; at most the picture's size.
     static HWY_INLINE Wide pixel(const Wide3& point, const Vector3& axis, const Wide& depth,
                                  int size) {

@@ -120,7 +120,10 @@ class LightBufferMaker {
     Slot count_from(Slot first) const {
         return std::min<Slot>(16, (first < triangle_end_ ? triangle_end_ : end_) - first);
     }
+    // No item is met outside of the octree's box, which alone is known to lie on one side of the
+    // light's plane; the sphere around an ellipsoid may reach out of it. [numerics: light buffers]
     HWY_INLINE ItemCorners corners(Slot first) const {
+        const Bounds3T<float>& box = source_.scene.octree().bounds;
         ItemCorners out;
         const Slot last = first + count_from(first) - 1;
         alignas(64) float at[3][3][16];
@@ -134,8 +137,11 @@ class LightBufferMaker {
             } else {
                 const Quadric& shape = source_.quadrics[slot - triangle_end_];
                 for (int axis = 0; axis < 3; ++axis) {
-                    at[0][axis][i] = shape.center[axis] - shape.radius;
-                    at[1][axis][i] = shape.center[axis] + shape.radius;
+                    // Of a radius that is NaN the box is left.
+                    const float low = shape.center[axis] - shape.radius;
+                    const float high = shape.center[axis] + shape.radius;
+                    at[0][axis][i] = low > box.min[axis] ? low : box.min[axis];
+                    at[1][axis][i] = high < box.max[axis] ? high : box.max[axis];
                 }
             }
         }

@@ -26,18 +26,22 @@ constexpr double kTouch = 8;
 // The sphere around an ellipsoid, so wide that a point outside is not taken to touch it: touching
 // points have |F| <= R' + (1 + sqrt 2) e |rho| in the terms of numerics: shadow ends, and outside
 // of a sphere of radius (1 + s) times the longest axis |F| > (1 + s) R'.
-double radius_around(const Ellipsoid& ellipsoid, double error) {
-    const Matrix3 adjugate = ellipsoid.linear.adjugate();
+// In the local frame, where no square of what matters leaves the range of doubles; infinite or NaN
+// where the ellipsoid is too thin for them.
+double radius_around(const Ellipsoid& ellipsoid, double scale, double error) {
+    Matrix3 linear = ellipsoid.linear;
+    for (Vector3& row : linear.row) row = row * ellipsoid.radius * scale;
+    const Matrix3 adjugate = linear.adjugate();
     double rho = 0;
     double longest = 0;
     for (int i = 0; i < 3; ++i) {
         const Vector3& row = adjugate.row[i];
         rho += std::fabs(row.x) + std::fabs(row.y) + std::fabs(row.z);
-        longest += dot(ellipsoid.linear.row[i], ellipsoid.linear.row[i]);
+        longest += dot(linear.row[i], linear.row[i]);
     }
-    const double volume = dot(ellipsoid.linear.row[0], adjugate.column(0)) * ellipsoid.radius;
-    return std::sqrt(longest) * ellipsoid.radius * (1 + 4 * error * rho / std::fabs(volume)) *
-           (1 + gamma(64));
+    const double volume = dot(linear.row[0], adjugate.column(0));
+    return std::sqrt(longest) * (1 + 4 * error * rho / std::fabs(volume)) * (1 + gamma(64)) +
+           kFloatUnderflow;
 }
 
 }  // namespace
@@ -131,14 +135,14 @@ Quadric ShadowTables::quadric_of(const Shape& shape) const {
     double radius = 0;
     if (const auto* sphere = std::get_if<Sphere>(&shape)) {
         center = sphere->center;
-        radius = sphere->radius;
+        radius = sphere->radius * frame.scale;
     } else {
         const auto& ellipsoid = std::get<Ellipsoid>(shape);
         center = ellipsoid.center;
-        radius = radius_around(ellipsoid, touch_ / frame.scale);
+        radius = radius_around(ellipsoid, frame.scale, touch_);
     }
     const Vec3<float> local(frame.local(center));
-    return {{local.x, local.y, local.z}, static_cast<float>(radius * frame.scale)};
+    return {{local.x, local.y, local.z}, static_cast<float>(radius)};
 }
 
 bool ShadowTables::outside_of_all(const LightPoint& light) const {

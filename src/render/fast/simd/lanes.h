@@ -307,16 +307,26 @@ using OctantFloats = Lanes<float, 8>;  ///< one number for each of 8 octants
 using Doubles = Lanes<double, 16>;     ///< Floats' lanes
 
 /// Rounded to the nearest floats.
+/// Doubles of one register rounded to the nearest float, beyond floats infinite. Of these the
+/// portable target would make the largest float, which is no bound.
+template <typename Tag, typename Vector>
+HWY_INLINE auto to_floats(Tag tag, const Vector& v) {
+#if HWY_TARGET == HWY_SCALAR
+    return hn::Set(tag, static_cast<float>(hn::GetLane(v)));
+#else
+    return hn::DemoteTo(tag, v);
+#endif
+}
 HWY_INLINE Floats floats_from(const Doubles& v) {
     Floats out;
 #if HWY_TARGET == HWY_SCALAR
     for (std::size_t i = 0; i < Floats::Shape::kParts; ++i)
-        out.part[i] = hn::DemoteTo(Floats::Tag(), v.part[i]);
+        out.part[i] = to_floats(Floats::Tag(), v.part[i]);
 #else
     const hn::Half<Floats::Tag> half;
     for (std::size_t i = 0; i < Floats::Shape::kParts; ++i)
-        out.part[i] = hn::Combine(Floats::Tag(), hn::DemoteTo(half, v.part[2 * i + 1]),
-                                  hn::DemoteTo(half, v.part[2 * i]));
+        out.part[i] = hn::Combine(Floats::Tag(), to_floats(half, v.part[2 * i + 1]),
+                                  to_floats(half, v.part[2 * i]));
 #endif
     return out;
 }
