@@ -13,33 +13,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr OctreeType kTypes[] = {OctreeType::kUniform, OctreeType::kNonuniform};
-
-std::string text(const FastOptions& options, Resolution size) {
-    std::ostringstream out;
-    out << (options.type == OctreeType::kUniform ? "uniform" : "nonuniform") << ", instruction set "
-        << static_cast<int>(options.isa) << ", " << options.threads << " threads, " << size.width
-        << " x " << size.height;
-    return out.str();
-}
-
-/// All pictures of `sizes` by tracers of each kind; those of several threads of the first size.
-void expect_identical(const Scene& scene, const std::vector<Resolution>& sizes,
-                      const std::vector<int>& threads = {1}) {
-    const Primitives primitives = flatten(scene, LeafContent::kPrimitives);
-    std::vector<Image> expected;
-    for (const Resolution& size : sizes) expected.push_back(exact_picture(scene, primitives, size));
-    for (const OctreeType type : kTypes)
-        for (const InstructionSet isa : supported_instruction_sets())
-            for (const int count : threads) {
-                const FastOptions options{type, count, isa};
-                FastTracer tracer(scene, primitives, options);
-                for (std::size_t i = 0; i < (count == 1 ? sizes.size() : 1); ++i)
-                    EXPECT_EQ(difference(expected[i], tracer.render(sizes[i])), "")
-                        << text(options, sizes[i]);
-            }
-}
-
 std::vector<std::string> scene_files() {
     std::vector<std::string> names;
     const fs::path root = fs::path(NUVO_SOURCE_DIR) / "testfiles";

@@ -1,5 +1,6 @@
 #include "fast/primary/camera_triangles.h"
 
+#include <bit>
 #include <limits>
 
 #include "nuvo/math/error_bounds.h"
@@ -28,7 +29,9 @@ class TriangleMaker {
           scale_(scale),
           extent_(camera) {}
 
-    HWY_INLINE void make(const TriangleBatch& batch, CameraTriangle* out, std::size_t count) {
+    /// Returns which ones double arithmetic cannot tell, by lane.
+    HWY_INLINE std::uint32_t make(const TriangleBatch& batch, CameraTriangle* out,
+                                  std::size_t count) {
         const Wide3 p = load_wide(batch.corner);
         const Wide3 q = load_wide(batch.corner + 3);
         const Wide3 r = load_wide(batch.corner + 6);
@@ -46,7 +49,8 @@ class TriangleMaker {
         // direction's own roundings and its unit length in the exact ray add 12 more.
         const Wide direction(extent_.direction);
         const Wide relative(2 * gamma(32));
-        const Wide normal_error = relative * edge * edge;
+        // And what its products lose below the normal range.
+        const Wide normal_error = relative * edge * edge + Wide(8 * kUnderflow);
         const Wide inverse = Wide(1.0) / constant;
         const Wide sign = select(constant > Wide(0.0), Wide(1.0), Wide(-1.0));
         const Wide edge_error = relative * edge * reach * direction;
@@ -62,6 +66,7 @@ class TriangleMaker {
         put(3, inverse_plane, normal_error * direction * abs(inverse), Wide(2.0) * share);
         static_assert(sizeof(CameraTriangle) == 16 * sizeof(float));
         columns_.write(out->a, count);
+        return ~known_.bits() & ((1U << count) - 1);
     }
 
   private:
@@ -97,8 +102,13 @@ void make_triangles(const CameraTrianglesJob& job, const TriangleChunk& chunk) {
     TriangleMaker maker(job.camera, job.eye, job.scale);
     const PixelBoxMaker boxes(job.camera);
     chunk.for_each_batch([&](const TriangleBatch& batch, Slot first, std::size_t count) HWY_ATTR {
-        maker.make(batch, job.out + first, count);
+        std::uint32_t unknown = maker.make(batch, job.out + first, count);
         boxes.triangles(batch.corner, job.eye, job.scale, job.boxes + first, count);
+        for (; HWY_UNLIKELY(unknown != 0); unknown &= unknown - 1) {
+            const auto i = static_cast<std::size_t>(std::countr_zero(unknown));
+            make_exact_camera_triangle(job, batch.triangle(i), job.out[first + i],
+                                       job.boxes[first + i]);
+        }
     });
 }
 

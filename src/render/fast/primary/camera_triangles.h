@@ -7,15 +7,17 @@
 
 namespace nuvo {
 
-/// How far pixel coordinates and directions reach.
+/// How far pixel coordinates and directions reach: over the picture and the middles of its tiles,
+/// from which functions are evaluated. A tile that sticks out has its middle less than half a
+/// tile outside.
 struct CameraExtent {
     explicit CameraExtent(const CameraRays& camera)
-        : x(0.5 * camera.resolution.width),
-          y(0.5 * camera.resolution.height),
+        : x(0.5 * (camera.resolution.width + kTileSide)),
+          y(0.5 * (camera.resolution.height + kTileSide)),
           direction(3 * (max_norm(camera.forward) + x * max_norm(camera.right) +
                          y * max_norm(camera.down))) {}
 
-    double x;  ///< half the picture, pixels
+    double x;  ///< pixels
     double y;
     double direction;  ///< bounds the sum of |components| of forward, X right and Y down
 };
@@ -27,6 +29,11 @@ struct CameraTrianglesJob {
     CameraTriangle* out;  ///< of slot 0
     PixelBox* boxes;      ///< of slot 0
 };
+
+/// The record of a triangle of which double arithmetic cannot tell it, and no pixels at all where
+/// the eye lies in its plane: from there it is never hit.
+void make_exact_camera_triangle(const CameraTrianglesJob& job, const Triangle& triangle,
+                                CameraTriangle& out, PixelBox& box);
 
 /// Makes the records and pixel boxes of a chunk.
 void make_camera_triangles(const CameraTrianglesJob& job, const TriangleChunk& chunk,

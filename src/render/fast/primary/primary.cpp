@@ -188,11 +188,35 @@ class PrimaryTracer {
         found.store(tile_, b, sure, slot);
         if (open_bits != 0) {
             if (job_.redo_exactly)
-                decide(slot, b, open_bits);
+                decide_triangle(slot, b, open_bits, (inside > Floats(edge_error)).bits(), found);
             else
                 found.store(tile_, b, open & (inside >= Floats(0.0F)), slot);
         }
         changed_ |= 1U << b;
+    }
+
+    // By the order of two planes where the triangle is surely met (`inside`) and many lanes show
+    // the same other one; else lane by lane.
+    HWY_NOINLINE void decide_triangle(Slot slot, int b, std::uint32_t open, std::uint32_t inside,
+                                      const Candidates& found) {
+        constexpr int kMany = 3;
+        const Ints shown = Ints::load(slots(b));
+        for (std::uint32_t rest = open & inside; rest != 0;) {
+            const Slot other = tile_.slot[b * kBlockLanes + std::countr_zero(rest)];
+            const std::uint32_t same =
+                (shown == Ints(static_cast<std::int32_t>(other))).bits() & rest;
+            rest &= ~same;
+            if (std::popcount(same) < kMany || other >= job_.scene.triangle_end()) continue;
+            const PlaneOrder order = job_.orders.between(slot, other);
+            const float at = order.c + order.a * rays_.center_x + order.b * rays_.center_y;
+            const Floats value =
+                mul_add(Floats::load(kOffsets.x[b]), Floats(order.a),
+                        mul_add(Floats::load(kOffsets.y[b]), Floats(order.b), Floats(at)));
+            const std::uint32_t nearer = (value > Floats(order.e)).bits() & same;
+            found.store(tile_, b, RayMask::from_bits(nearer), slot);
+            open &= ~(nearer | ((value < Floats(-order.e)).bits() & same));
+        }
+        if (open != 0) decide(slot, b, open);
     }
 
     HWY_NOINLINE void test_spheres(const CameraSphere* const* spheres, const std::size_t* place,

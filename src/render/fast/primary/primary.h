@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fast/primary/camera_tables.h"
+#include "fast/primary/plane_order.h"
 #include "fast/scene/mailbox.h"
 #include "fast/tile/exact_fallback.h"
 #include "fast/tile/tile.h"
@@ -18,6 +19,7 @@ struct PrimaryJob {
     const ExactFallback& fallback;
     bool redo_exactly;
     Mailbox mailbox;
+    PlaneOrders orders{scene, camera};
 };
 
 /// Finds the nearest primitives of a tile whose x and y are set; fills `inside` and the fields of

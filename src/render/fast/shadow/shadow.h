@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "fast/scene/mailbox.h"
+#include "fast/shadow/free_pairs.h"
 #include "fast/shadow/shadow_tables.h"
 #include "fast/tile/exact_fallback.h"
 #include "fast/tile/tile.h"
@@ -27,6 +28,7 @@ struct ShadowJob {
     bool redo_exactly;
     Mailbox mailbox{};
     std::vector<OpenShadow> open{};
+    FreePairs free_pairs{tables.scene()};
 };
 
 /// Decides which points of a tile the lights reach. For one thread.

@@ -23,10 +23,11 @@ namespace nuvo::HWY_NAMESPACE {
 
 /// One light and what tells its shadows.
 struct ShadowContext {
-    ShadowContext(ShadowJob& of, std::size_t light)
-        : job(of), table(of.tables.table(light)), planes(of.tables.planes(light)) {}
+    ShadowContext(ShadowJob& of, std::size_t index)
+        : job(of), light(index), table(of.tables.table(index)), planes(of.tables.planes(index)) {}
 
     ShadowJob& job;
+    std::size_t light;
     const ShadowTable& table;
     const ShadowPlanes* planes;
 };
@@ -71,12 +72,22 @@ class ShadowBlock {
         const Floats depth = hidden(context.planes[slot], points_);
         block((depth > plane_error_).bits());
         const std::uint32_t open = waiting_ & lanes & ~(depth < -plane_error_).bits();
-        if (HWY_UNLIKELY(open != 0)) leave_triangle(context.job, slot, open, depth > Floats(0.0F));
+        if (HWY_UNLIKELY(open != 0)) leave_triangle(context, slot, open, depth > Floats(0.0F));
     }
-    // A triangle does not hide its own points.
-    HWY_NOINLINE void leave_triangle(ShadowJob& job, Slot slot, std::uint32_t lanes,
+    // A triangle does not hide its own points, nor those of one that lies on the light's side of
+    // it.
+    HWY_NOINLINE void leave_triangle(const ShadowContext& context, Slot slot, std::uint32_t lanes,
                                      const RayMask& rounded) {
-        put_aside(job, slot, lanes & ~own(slot), rounded.bits());
+        lanes &= ~own(slot);
+        for (std::uint32_t rest = lanes; rest != 0;) {
+            const auto lit = static_cast<Slot>(slots_[std::countr_zero(rest)]);
+            const std::uint32_t same = own(lit) & rest;
+            rest &= ~same;
+            if (lit < context.job.tables.scene().triangle_end() &&
+                context.job.free_pairs.free(lit, slot, context.light))
+                lanes &= ~same;
+        }
+        put_aside(context.job, slot, lanes, rounded.bits());
     }
 
     HWY_INLINE void test_round(const ShadowContext& context, Slot slot, std::uint32_t lanes) {

@@ -1,0 +1,79 @@
+#include "fast/primary/exact_planes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "fast/primary/camera_triangles.h"
+#include "nuvo/math/error_bounds.h"
+
+namespace nuvo {
+
+ExactPlane::ExactPlane(const Triangle& t, const Point3& eye) {
+    const ExactVector a(t.a);
+    normal = cross(ExactVector(t.b) - a, ExactVector(t.c) - a);
+    constant = dot(normal, a - ExactVector(eye));
+}
+
+ScaledVector::ScaledVector(const ExactVector& v) {
+    WideDouble part[3];
+    bool found = false;
+    for (int axis = 0; axis < 3; ++axis) {
+        part[axis] = v[axis].approximate();
+        if (part[axis].significand() == 0) continue;
+        exponent = found ? std::max(exponent, part[axis].exponent()) : part[axis].exponent();
+        found = true;
+    }
+    for (int axis = 0; axis < 3; ++axis)
+        if (part[axis].significand() != 0)
+            value[axis] =
+                WideDouble(part[axis].significand(), part[axis].exponent() - exponent).rounded();
+}
+
+Triangle triangle_of(const FastScene& scene, Slot slot) {
+    const PrimitiveSource& source = scene.source(slot);
+    return std::get<TriangleMesh>(scene.scene().objects[source.object].shape)
+        .triangle(source.triangle);
+}
+
+void make_exact_camera_triangle(const CameraTrianglesJob& job, const Triangle& triangle,
+                                CameraTriangle& out, PixelBox& box) {
+    const ExactPlane plane(triangle, job.eye);
+    const int sign = plane.constant.sign();
+    if (sign == 0) {
+        box.columns = box.rows = 0;
+        return;
+    }
+    const CameraExtent extent(job.camera);
+    // A function with what rounds it: its own components, and the exact rays' directions.
+    const auto put = [&](int i, const Vector3& v) {
+        const double a = dot(v, job.camera.right);
+        const double b = dot(v, job.camera.down);
+        const double c = dot(v, job.camera.forward);
+        const double most = std::fabs(a) * extent.x + std::fabs(b) * extent.y + std::fabs(c);
+        out.a[i] = static_cast<float>(a);
+        out.b[i] = static_cast<float>(b);
+        out.c[i] = static_cast<float>(c);
+        out.e[i] = rounded_up(gamma(64) * max_norm(v) * extent.direction +
+                              kCameraRoundings * kFloatRoundoff * most + kFloatUnderflow);
+    };
+    const ExactVector eye(job.eye);
+    const ExactVector corner[3] = {ExactVector(triangle.a) - eye, ExactVector(triangle.b) - eye,
+                                   ExactVector(triangle.c) - eye};
+    // Edge functions may have any positive factor.
+    for (int i = 0; i < 3; ++i)
+        put(i, ScaledVector(cross(corner[(i + 1) % 3], corner[(i + 2) % 3])).value * sign);
+    const ScaledVector normal(plane.normal);
+    const WideDouble constant = plane.constant.approximate();
+    const WideDouble inverse = WideDouble(1, normal.exponent) / (constant * WideDouble(job.scale));
+    constexpr double kLargest = 0x1p120;
+    const double factor = inverse.rounded();
+    if (std::fabs(factor) * extent.direction < kLargest) {
+        put(3, normal.value * factor);
+    } else {
+        out.a[3] = out.b[3] = out.c[3] = 0;
+        out.e[3] = std::numeric_limits<float>::infinity();
+    }
+}
+
+}  // namespace nuvo

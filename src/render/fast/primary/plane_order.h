@@ -1,0 +1,57 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "fast/primary/camera_triangles.h"
+#include "fast/scene/fast_scene.h"
+
+// Which of two triangles is nearer, for all pixels at once. On the ray of the pixel coordinates X,
+// Y the planes of two triangles are met at t and t'; the difference 1 / t - 1 / t' is affine in X,
+// Y, as each of them is, but where the planes nearly coincide floats and doubles lose it. Made from
+// exact arithmetic once for a pair, it has all its digits. [numerics: coincident triangles]
+
+namespace nuvo {
+
+/// A function c + a X + b Y that is positive where the first of two triangles is nearer, if both
+/// are met, or as near and earlier in the document; off by at most e, infinite where floats cannot
+/// tell.
+struct PlaneOrder {
+    float a = 0;
+    float b = 0;
+    float c = 0;
+    float e = 0;
+};
+
+/// The orders of pairs that were asked for, as far as they are kept. For one thread.
+class PlaneOrders {
+  public:
+    PlaneOrders(const FastScene& scene, const CameraRays& camera)
+        : scene_(scene), camera_(camera) {}
+
+    PlaneOrder between(Slot first, Slot second) {
+        if (kept_.empty()) kept_.resize(kKept);
+        Kept& kept = kept_[(first * 0x9e3779b1U + second * 0x85ebca6bU) >> (32 - kKeptLog2)];
+        if (kept.first != first || kept.second != second)
+            kept = {first, second, order_of(first, second)};
+        return kept.order;
+    }
+
+  private:
+    static constexpr unsigned kKeptLog2 = 14;
+    static constexpr std::size_t kKept = std::size_t{1} << kKeptLog2;
+    struct Kept {
+        Slot first = kNoSlot;
+        Slot second = kNoSlot;
+        PlaneOrder order;
+    };
+
+    PlaneOrder order_of(Slot first, Slot second) const;
+
+    const FastScene& scene_;
+    const CameraRays& camera_;
+    std::vector<Kept> kept_;
+};
+
+}  // namespace nuvo
