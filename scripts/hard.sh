@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Hard rays and pictures against exact arithmetic: scripts/hard.sh [--rays N] [--seed S]
-# [--class NAME] [--fast] | --leaks N | --pictures | --scenes N | --list. The exit status is 1 where
+# [--class NAME] [--fast] | --leaks N | --pictures | --scenes N | --lit N | --list. The exit status is 1 where
 # anything is wrong.
 set -euo pipefail
 source "$(dirname -- "${BASH_SOURCE[0]}")/setup.sh"
@@ -9,7 +9,7 @@ source "$(dirname -- "${BASH_SOURCE[0]}")/setup.sh"
 flags=()
 while [ $# -gt 0 ]; do
     case $1 in
-        --rays | --seed | --class | --leaks | --scenes | --threads | --precision)
+        --rays | --seed | --class | --leaks | --scenes | --lit | --threads | --precision)
             [ $# -ge 2 ] || { echo "hard.sh: $1 needs a value" >&2; exit 2; }
             flags+=("$1=$2")
             shift 2 ;;

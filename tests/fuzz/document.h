@@ -37,6 +37,7 @@ struct Document {
     Resolution resolution{16, 9};
     /// Six numbers a ray, as in a file for --rays.
     std::vector<std::string> rays;
+    bool fast = true;  ///< false: the fast tracer is left out
 };
 
 /// True where the document has an Inline, whose file must stand beside it.

@@ -131,6 +131,7 @@ Verdict judge(const Document& document, const std::filesystem::path& folder) {
     return judge([&](Document& settings) {
         settings.resolution = document.resolution;
         settings.rays = document.rays;
+        settings.fast = document.fast;
         return load(document, folder);
     });
 }

@@ -101,6 +101,7 @@ class Checker {
     Checker(const Scene& scene, const Document& document, const Listener& listener)
         : scene_(scene),
           resolution_(document.resolution),
+          fast_(document.fast),
           listener_(listener),
           primitives_(flatten(scene, LeafContent::kPrimitives)) {
         std::string lines;
@@ -112,9 +113,11 @@ class Checker {
     void run() {
         brute_force();
         for (const SerialWay& way : kSerialWays) serial(way);
-        for (const InstructionSet isa : supported_instruction_sets())
-            for (const OctreeType type : {OctreeType::kUniform, OctreeType::kNonuniform})
-                for (const int threads : {1, 3}) fast({type, threads, isa});
+        if (fast_)
+            for (const InstructionSet isa : supported_instruction_sets())
+                for (const OctreeType type : {OctreeType::kUniform, OctreeType::kNonuniform})
+                    for (const int threads : {1, 3}) fast({type, threads, isa});
+        if (rays_.empty()) return;
         brute_force_rays();
         for (const Walked& walked : walked_) serial_rays(walked);
         for (const auto& [name, tracer] : tracers_) {
@@ -239,6 +242,7 @@ class Checker {
 
     const Scene& scene_;
     Resolution resolution_;
+    bool fast_;
     const Listener& listener_;
     Primitives primitives_;
     std::vector<Ray> rays_;

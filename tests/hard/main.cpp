@@ -23,6 +23,8 @@ constexpr const char* kUsage =
     "reference\n"
     "  --fast         with --rays: by the fast tracer's single rays\n"
     "  --precision=P  exact, double or float tests, to see the oracle find their errors (exact)\n"
+    "  --lit=N        instead: N scenes with every kind of light and material against the "
+    "reference\n"
     "  --write-scenes instead: write testfiles/hard anew\n"
     "  --threads=N    batches at once (as many as the machine has)\n"
     "  --list         the classes\n";
@@ -31,6 +33,7 @@ struct Flags {
     nuvo::hard::RunOptions run;
     std::uint64_t leaks = 0;
     std::uint64_t scenes = 0;
+    std::uint64_t lit = 0;
     bool list = false;
     bool pictures = false;
     bool write_scenes = false;
@@ -73,6 +76,8 @@ bool read_flag(const std::string& flag, Flags& flags) {
         flags.leaks = number;
     else if (name == "--scenes")
         flags.scenes = number;
+    else if (name == "--lit")
+        flags.lit = number;
     else if (name == "--threads")
         flags.run.threads = static_cast<unsigned>(number);
     else
@@ -123,6 +128,11 @@ int main(int argc, char** argv) {
     if (flags.pictures) return check_pictures({160, 90}, flags.run.threads, std::cout) ? 0 : 1;
     if (flags.scenes > 0)
         return check_random_pictures(flags.scenes, flags.run.seed, flags.run.threads, std::cout)
+                   ? 0
+                   : 1;
+    if (flags.lit > 0)
+        return check_random_pictures(flags.lit, flags.run.seed, flags.run.threads, std::cout,
+                                     Lighting::kRich)
                    ? 0
                    : 1;
     if (flags.leaks > 0) return count_and_print_leaks(flags);

@@ -31,10 +31,12 @@ PictureCheck check_picture(const Scene& scene, const Image& image, std::ostream&
                            bool rounded_points = false);
 /// All of testfiles/hard at that size, as a table; true when none is wrong.
 bool check_pictures(Resolution resolution, unsigned threads, std::ostream& out);
-/// Scenes of every class, seen and lit from hard places, `count` in all; true when no pixel is
-/// wrong. Prints the sums.
+/// kHardPlaces: plain lamps and a sun where shadows are hard. kRich: every kind of light with all
+/// its fields, many materials, blended normals and colors, where shading is hard.
+enum class Lighting { kHardPlaces, kRich };
+/// Scenes of every class so lit, `count` in all; true when no pixel is wrong. Prints the sums.
 bool check_random_pictures(std::uint64_t count, std::uint64_t seed, unsigned threads,
-                           std::ostream& out);
+                           std::ostream& out, Lighting lighting = Lighting::kHardPlaces);
 /// testfiles/hard/NAME.x3d
 std::string hard_scene_path(const std::string& name);
 

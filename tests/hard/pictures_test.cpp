@@ -27,6 +27,11 @@ TEST(HardPictures, ScenesOfEveryClassLitFromSurfacesEqualTheReference) {
     EXPECT_TRUE(check_random_pictures(104, 13, 0, report)) << report.str();
 }
 
+TEST(HardPictures, RichlyLitScenesOfEveryClassEqualTheReference) {
+    std::ostringstream report;
+    EXPECT_TRUE(check_random_pictures(200, 14, 0, report, Lighting::kRich)) << report.str();
+}
+
 TEST(HardPictures, TheReferenceSeesTheErrorsOfTheThesisProfile) {
     const Scene scene = hard_scene("contact-gaps");
     const Profile profile = thesis_profile();

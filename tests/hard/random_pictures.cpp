@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "classes.h"
+#include "lights.h"
 #include "nuvo/render/render.h"
 #include "pictures.h"
 
@@ -14,6 +15,7 @@ namespace nuvo::hard {
 namespace {
 
 constexpr Resolution kSize{32, 18};
+constexpr Resolution kSmall{20, 12};
 
 Camera camera_towards(const Point3& eye, const Point3& target, double field_of_view) {
     Camera camera;
@@ -27,34 +29,8 @@ Camera camera_towards(const Point3& eye, const Point3& target, double field_of_v
     return camera;
 }
 
-Light lamp_at(const Point3& location) {
-    Light light;
-    light.kind = Light::Kind::kPoint;
-    light.location = location;
-    light.ambient_intensity = 0.5;
-    light.intensity = 0.5;
-    light.radius = std::numeric_limits<double>::max();
-    return light;
-}
-
-// Lights on corners, edges and surfaces, within objects, far away, and along an axis.
-void light_up(Scene& scene, Aims& aims, Random& random) {
-    scene.lights.push_back(lamp_at(aims.feature()));
-    scene.lights.push_back(lamp_at(aims.on_surface(aims.object())));
-    scene.lights.push_back(lamp_at(random.chance() ? aims.outside() : aims.middle(aims.object())));
-    Light sun;
-    sun.ambient_intensity = 0.5;
-    sun.intensity = 0.5;
-    sun.direction = {};
-    sun.direction[random.below(3)] = random.sign();
-    if (random.chance()) sun.direction = random.unit();
-    scene.lights.push_back(sun);
-    for (Object& object : scene.objects) object.solid = random.chance();
-    scene.materials[0].specular_color = {0.3, 0.3, 0.3};
-    scene.materials[0].ambient_intensity = 1;
-}
-
-PictureCheck check_one(std::uint64_t number, std::uint64_t seed, std::ostream& faults) {
+PictureCheck check_one(std::uint64_t number, std::uint64_t seed, Lighting lighting,
+                       std::ostream& faults) {
     const auto classes = hard_classes();
     const HardClass& hard_class = classes[number % classes.size()];
     Random random(mixed_seed(seed, 2000, number),
@@ -63,14 +39,15 @@ PictureCheck check_one(std::uint64_t number, std::uint64_t seed, std::ostream& f
     const Primitives primitives = flatten(scene, LeafContent::kPrimitives);
     const Octree octree = build_tree(scene, primitives, exact_profile());
     Aims aims(scene, octree, random);
-    light_up(scene, aims, random);
+    lighting == Lighting::kRich ? light_richly(scene, aims, random)
+                                : light_from_hard_places(scene, aims, random);
     const Object& target = aims.object();
     const double size = aims.half_size(target);
     const Point3 eye =
         random.chance() ? aims.middle(target) + random.unit() * (4 * size) : aims.outside();
     scene.camera = camera_towards(eye, aims.middle(target), 0.7);
     std::ostringstream found;
-    const Image image = picture(scene, kSize);
+    const Image image = picture(scene, lighting == Lighting::kRich ? kSmall : kSize);
     PictureCheck check = check_picture(scene, image, found, true);
     check.fast_differs = fast_differences(scene, image);
     if (check.fast_differs > 0)
@@ -83,14 +60,14 @@ PictureCheck check_one(std::uint64_t number, std::uint64_t seed, std::ostream& f
 }  // namespace
 
 bool check_random_pictures(std::uint64_t count, std::uint64_t seed, unsigned threads,
-                           std::ostream& out) {
+                           std::ostream& out, Lighting lighting) {
     std::atomic<std::uint64_t> next{0};
     std::mutex mutex;
     PictureCheck sum;
     const auto work = [&] {
         for (std::uint64_t i = next++; i < count; i = next++) {
             std::ostringstream faults;
-            const PictureCheck check = check_one(i, seed, faults);
+            const PictureCheck check = check_one(i, seed, lighting, faults);
             const std::lock_guard lock(mutex);
             sum.pixels += check.pixels;
             sum.off += check.off;

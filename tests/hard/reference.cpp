@@ -123,7 +123,7 @@ std::optional<Reference::Meeting> Reference::nearest(const Line& line) const {
     std::optional<Meeting> best;
     const auto take = [&](std::size_t object, std::size_t triangle, const Digits& t) {
         if (!(t > 0) || (best && t >= best->t * (1 - none()))) return;
-        best = Meeting{object, triangle, t, {}, {}, {}};
+        best = Meeting{object, triangle, t, {}, {}, {}, {}};
     };
     sieve_.each(rounded(line.origin), rounded(line.direction), kSlack,
                 [&](std::size_t object, std::size_t triangle) {
@@ -153,16 +153,19 @@ void Reference::finish(const Line& line, Meeting& meeting) const {
         meeting.point = DigitsVector(t.a) + (e1 * at.y + e2 * at.z);
         geometric = cross(e1, e2);
         meeting.geometric = meeting.shading = rounded(unit(geometric));
-        if (!mesh->normals.empty()) {
-            const auto& corners =
-                mesh->normal_triangles.empty() ? mesh->triangles : mesh->normal_triangles;
+        const auto v = static_cast<long double>(at.y);
+        const auto w = static_cast<long double>(at.z);
+        const auto blended = [&](const auto& values, const auto& own_corners) {
+            const auto& corners = own_corners.empty() ? mesh->triangles : own_corners;
             const IndexTriple& n = corners[meeting.triangle];
-            const auto v = static_cast<long double>(at.y);
-            const auto w = static_cast<long double>(at.z);
-            const Long blended = Long(mesh->normals[n[0]]) * (1 - v - w) +
-                                 Long(mesh->normals[n[1]]) * v + Long(mesh->normals[n[2]]) * w;
-            if (length(blended) > 0) meeting.shading = blended / length(blended);
+            return Long(values[n[0]]) * (1 - v - w) + Long(values[n[1]]) * v +
+                   Long(values[n[2]]) * w;
+        };
+        if (!mesh->normals.empty()) {
+            const Long normal = blended(mesh->normals, mesh->normal_triangles);
+            if (length(normal) > 0) meeting.shading = normal / length(normal);
         }
+        if (!mesh->colors.empty()) meeting.color = blended(mesh->colors, mesh->color_triangles);
     } else if (const auto* sphere = std::get_if<Sphere>(&object.shape)) {
         meeting.geometric = rounded(unit(meeting.point - DigitsVector(sphere->center)));
         meeting.shading = meeting.geometric;
@@ -245,7 +248,7 @@ Reference::Sample Reference::sample(double x, double y, const Vector3& error) co
     } else {
         const Object& object = scene_.objects[meeting->object];
         const Material& material = scene_.materials[object.material];
-        color = Long(material.emissive_color);
+        color = emitted(*meeting);
         for (std::size_t i = 0; material.lit && i < scene_.lights.size(); ++i) {
             const Light& source = scene_.lights[i];
             if (!source.scope.includes(static_cast<std::uint32_t>(meeting->object))) continue;

@@ -58,6 +58,7 @@ class Reference {
         DigitsVector point;
         Vec3<long double> geometric;  ///< unit normal
         Vec3<long double> shading;
+        std::optional<Vec3<long double>> color;  ///< of a mesh with colors
     };
     struct Roots {
         Digits first;
@@ -75,6 +76,9 @@ class Reference {
     void finish(const Line& line, Meeting& meeting) const;
     bool blocked(const Meeting& meeting, const Line& shadow, bool endless) const;
     Vec3<long double> background(const Vec3<long double>& direction) const;
+    /// The material's color, or the mesh's in its place: the diffuse one, or the emissive one
+    /// where the material is not lit.
+    Vec3<long double> emitted(const Meeting& meeting) const;
     std::optional<Vec3<long double>> light(const Light& light, const Meeting& meeting,
                                            const Vec3<long double>& to_viewer) const;
 

@@ -10,8 +10,8 @@ using Long = Vec3<long double>;
 
 // I_spot [ISO/IEC 19775-1 17.2.2.4]; `from_light` is a unit vector.
 long double spot(const Light& light, const Long& from_light) {
-    const long double cosine = std::clamp(dot(from_light, Long(light.direction)), -1.0L, 1.0L);
-    const long double angle = std::acos(cosine);
+    const Long axis(light.direction);
+    const long double angle = std::atan2(length(cross(axis, from_light)), dot(axis, from_light));
     const long double cut_off = light.cut_off_angle;
     const long double beam = light.beam_width;
     if (angle >= cut_off) return 0;
@@ -26,6 +26,12 @@ Vec3<long double> Reference::background(const Vec3<long double>& direction) cons
     const Long sky(colors.sky_color[0]);
     if (colors.ground_color.empty()) return sky;
     return sky * ((direction.y + 1) / 2) + Long(colors.ground_color[0]) * ((1 - direction.y) / 2);
+}
+
+Vec3<long double> Reference::emitted(const Meeting& meeting) const {
+    const Material& material = scene_.materials[scene_.objects[meeting.object].material];
+    if (!material.lit && meeting.color) return *meeting.color;
+    return Long(material.emissive_color);
 }
 
 // attenuation x spot x colour x (ambient + diffuse + specular); none: no light arrives.
@@ -58,8 +64,8 @@ std::optional<Vec3<long double>> Reference::light(const Light& light, const Meet
     const long double cosine = size > 0 ? std::max(0.0L, dot(n, halfway) / size) : 0;
     const long double specular =
         intensity * std::pow(cosine, 128 * static_cast<long double>(material.shininess));
-    const Long reflected = Long(material.diffuse_color) * (ambient + diffuse) +
-                           Long(material.specular_color) * specular;
+    const Long matt = meeting.color ? *meeting.color : Long(material.diffuse_color);
+    const Long reflected = matt * (ambient + diffuse) + Long(material.specular_color) * specular;
     return Long(light.color) * reflected * factor;
 }
 
