@@ -16,7 +16,7 @@ bool separated(const Vector3& axis, const Vector3 (&v)[3], const Vector3& half, 
     const double p1 = dot(axis, v[1]);
     const double p2 = dot(axis, v[2]);
     const double reach = dot(half, absolute(axis)) + error;
-    return std::fmin(p0, std::fmin(p1, p2)) > reach || std::fmax(p0, std::fmax(p1, p2)) < -reach;
+    return (p0 > reach && p1 > reach && p2 > reach) || (p0 < -reach && p1 < -reach && p2 < -reach);
 }
 
 }  // namespace
@@ -33,14 +33,18 @@ bool overlaps(const Triangle& triangle, const Bounds3& box) {
                              triangle.a - triangle.c};
     const double reach = max_norm(v[0]) + max_norm(v[1]) + max_norm(v[2]) + max_norm(half);
 
-    // Plane: three products of three factors, each factor rounded. Below the normal range a product
-    // loses up to kUnderflow more: six that are multiplied once more, and some of sums.
+    // Below the normal range a product loses up to kUnderflow more: six that are multiplied once
+    // more, and some of sums. The bounds are infinite where a partial sum could overflow.
+    constexpr double kHeadroom = 16;
     const double underflow = 16 * kUnderflow * (reach + 1);
+    const double room = kHeadroom * reach;
+    // Plane: three products of three factors, each factor rounded.
     const double edges = max_norm(edge[0]) * max_norm(edge[1]);
-    if (separated(cross(edge[0], edge[1]), v, half, gamma(40) * edges * reach + underflow))
+    if (separated(cross(edge[0], edge[1]), v, half,
+                  gamma(40) / kHeadroom * (edges * room) + underflow))
         return false;
     for (const Vector3& e : edge) {
-        const double error = gamma(16) * max_norm(e) * reach + underflow;
+        const double error = gamma(16) / kHeadroom * (max_norm(e) * room) + underflow;
         if (separated({0, -e.z, e.y}, v, half, error) ||
             separated({e.z, 0, -e.x}, v, half, error) || separated({-e.y, e.x, 0}, v, half, error))
             return false;

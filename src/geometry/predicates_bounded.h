@@ -14,6 +14,13 @@ constexpr T gamma_of(int n) {
     return nu / (1 - nu);
 }
 
+/// The absolute error of a product of T that becomes subnormal. None where T's exponents have room
+/// for every product of doubles that is asked for (six factors from 2^-1074 on).
+template <typename T>
+constexpr T underflow_of() {
+    return std::numeric_limits<T>::min_exponent < -6 * 1074 ? T(0) : static_cast<T>(kUnderflow);
+}
+
 template <typename T>
 Vec3<T> magnitude(const Vec3<T>& v) {
     return {std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)};
@@ -39,6 +46,8 @@ struct Bounded {
 
     bool sure() const { return std::fabs(value) > error && finite(); }
     int sign() const { return value > 0 ? 1 : -1; }
+    /// Surely zero: every product was.
+    bool vanishes() const { return error == 0; }
     /// Known within `relative`.
     bool within(double relative) const {
         return error <= static_cast<T>(relative) * std::fabs(value) && finite();
@@ -54,8 +63,8 @@ struct Bounded {
 template <typename T>
 Bounded<T> triple_product(const Vec3<T>& d, const Vec3<T>& n, const Vec3<T>& n_magnitude) {
     const Vec3<T> size = magnitude(d);
-    return {dot(n, d), gamma_of<T>(9) * dot(n_magnitude, size) +
-                           16 * static_cast<T>(kUnderflow) * (sum(size) + 1)};
+    return {dot(n, d),
+            gamma_of<T>(9) * dot(n_magnitude, size) + 16 * underflow_of<T>() * (sum(size) + 1)};
 }
 /// The ray's direction rounded to T: within one roundoff of the true one.
 template <typename T>

@@ -1,8 +1,10 @@
+#include "plane_root.h"
 #include "predicates_exact.h"
 
 namespace nuvo {
 namespace {
 
+using detail::Bounded;
 using detail::ExactPlaneRoot;
 using detail::ExactQuadratic;
 
@@ -82,10 +84,46 @@ int order(const QuadraticRoot& a, const QuadraticRoot& b) {
 
 int order(const QuadraticRoot& a, const ExactPlaneRoot& b) { return -order(b, a); }
 
+/// The sign of t_a - t_b in T, where it is sure.
+template <typename T>
+std::optional<int> sure_order(const ExactRay& ray, const Triangle& a, const Triangle& b) {
+    const detail::PlaneRoot<T> p = detail::plane_root<T>(ray, a);
+    const detail::PlaneRoot<T> q = detail::plane_root<T>(ray, b);
+    if (!p.denominator.sure() || !q.denominator.sure()) return std::nullopt;
+    const auto product = [](const Bounded<T>& x, const Bounded<T>& y) {
+        const T size = std::fabs(x.value) + x.error;
+        return Bounded<T>{x.value * y.value, size * y.error + std::fabs(y.value) * x.error};
+    };
+    const Bounded<T> left = product(p.numerator, q.denominator);
+    const Bounded<T> right = product(q.numerator, p.denominator);
+    const T sizes = std::fabs(left.value) + std::fabs(right.value);
+    const Bounded<T> difference{
+        left.value - right.value,
+        (left.error + right.error + detail::gamma_of<T>(3) * sizes) * (1 + detail::gamma_of<T>(8)) +
+            4 * detail::underflow_of<T>()};
+    if (!difference.sure()) return std::nullopt;
+    return difference.sign() * p.denominator.sign() * q.denominator.sign();
+}
+
+/// Two in one plane are met at one t by every ray.
+std::optional<int> quick_order(const ExactRay& ray, const Triangle& a, const Triangle& b,
+                               StageCounts& counts) {
+    if (const std::optional<int> order = sure_order<long double>(ray, a, b)) return order;
+    for (const Point3& corner : {b.a, b.b, b.c})
+        if (counts.sides.side(a, corner, counts.exact) != 0) return std::nullopt;
+    return 0;
+}
+
 }  // namespace
 
 int compare_roots(const ExactRay& ray, const HitPrimitive& a, const HitPrimitive& b,
                   StageCounts& counts) {
+    ++counts.wider;
+    const auto* const* first = std::get_if<const Triangle*>(&a.primitive);
+    const auto* const* second = std::get_if<const Triangle*>(&b.primitive);
+    if (first && second)
+        if (const std::optional<int> order = quick_order(ray, **first, **second, counts))
+            return *order;
     ++counts.exact;
     return std::visit([](const auto& x, const auto& y) { return order(x, y); }, exact_root(ray, a),
                       exact_root(ray, b));

@@ -1,34 +1,8 @@
-#include "predicates_bounded.h"
+#include "plane_root.h"
 #include "predicates_exact.h"
 
 namespace nuvo::detail {
 namespace {
-
-/// The exact sign of d . (p x q).
-int exact_triple_sign(const ExactVector& d, const ExactVector& p, const ExactVector& q) {
-    return dot(d, cross(p, q)).sign();
-}
-
-/// The plane form t = n.(a - o) / n.d: n comes from the edges, so that a small triangle far away
-/// keeps its accuracy.
-template <typename T>
-struct PlaneRoot {
-    Bounded<T> numerator;
-    Bounded<T> denominator;
-    Vec3<T> normal;
-    Vec3<T> normal_magnitude;  ///< gamma(4) times this bounds the normal's error
-};
-
-template <typename T>
-PlaneRoot<T> plane_root(const ExactRay& ray, const Triangle& t) {
-    const Vec3<T> corner(t.a);
-    const Vec3<T> e1 = Vec3<T>(t.b) - corner;
-    const Vec3<T> e2 = Vec3<T>(t.c) - corner;
-    const Vec3<T> normal = cross(e1, e2);
-    const Vec3<T> size = cross_magnitude(e1, e2);
-    return {triple_product(corner - Vec3<T>(ray.origin()), normal, size),
-            triple_product(direction_of<T>(ray), normal, size), normal, size};
-}
 
 enum class Outcome : std::uint8_t { kNo, kYes, kUnsure };
 
@@ -37,6 +11,7 @@ Outcome try_hit(const ExactRay& ray, const Triangle& triangle, Root& root) {
     const PlaneRoot<T> plane = plane_root<T>(ray, triangle);
     const Bounded<T>& n = plane.numerator;
     const Bounded<T>& d = plane.denominator;
+    if (n.vanishes() || d.vanishes()) return Outcome::kNo;
     if (n.sure() && d.sure() && n.sign() != d.sign()) return Outcome::kNo;
     constexpr double kShare = 0.4375 * root_tolerance();  // two of these and four roundings
     const double t = static_cast<double>(n.value / d.value);
@@ -52,11 +27,12 @@ Outcome try_blocks(const ExactRay& shadow, double end, double origin_error,
     const PlaneRoot<T> plane = plane_root<T>(shadow, triangle);
     const Bounded<T>& n = plane.numerator;
     const Bounded<T>& d = plane.denominator;
+    if (n.vanishes() || d.vanishes()) return Outcome::kNo;
     if (!n.sure() || !d.sure()) return Outcome::kUnsure;
     if (n.sign() != d.sign()) return Outcome::kNo;
     constexpr T kUp = 1 + gamma_of<T>(8);
     constexpr T kDown = 1 - gamma_of<T>(8);
-    const T tiny = static_cast<T>(kUnderflow);
+    const T tiny = underflow_of<T>();
     const T low = (std::fabs(n.value) - n.error) * kDown;
     const T high = (std::fabs(n.value) + n.error) * kUp;
     const T far = static_cast<T>(end);
@@ -70,6 +46,92 @@ Outcome try_blocks(const ExactRay& shadow, double end, double origin_error,
                                                                           : Outcome::kUnsure;
 }
 
+/// Signs of the edge functions U, V, W, found one by one.
+struct EdgeSigns {
+    bool known[3] = {false, false, false};
+    bool positive = false;
+    bool negative = false;
+
+    void set(int edge, int sign) {
+        known[edge] = true;
+        positive = positive || sign > 0;
+        negative = negative || sign < 0;
+    }
+    bool decided() const { return (positive && negative) || (known[0] && known[1] && known[2]); }
+    /// All zero: the line lies in the plane, or there is no plane.
+    LineTest answer() const { return positive != negative ? LineTest::kMeets : LineTest::kMisses; }
+};
+
+/// Finds the unknown signs that T's roundings leave sure.
+template <typename T>
+void add_signs(const ExactRay& ray, const Triangle& t, EdgeSigns& signs) {
+    const Vec3<T> o(ray.origin());
+    const Vec3<T> d = direction_of<T>(ray);
+    const Vec3<T> corner[3] = {Vec3<T>(t.a) - o, Vec3<T>(t.b) - o, Vec3<T>(t.c) - o};
+    for (int i = 0; i < 3; ++i) {
+        if (signs.known[i]) continue;
+        const Vec3<T>& p = corner[(i + 2) % 3];
+        const Vec3<T>& q = corner[(i + 1) % 3];
+        const Bounded<T> edge = triple_product(d, cross(p, q), cross_magnitude(p, q));
+        if (edge.sure())
+            signs.set(i, edge.sign());
+        else if (edge.vanishes())
+            signs.set(i, 0);
+    }
+}
+
+void add_exact_signs(const ExactRay& ray, const Triangle& t, EdgeSigns& signs) {
+    const ExactVector o(ray.origin());
+    const ExactVector d = exact_direction(ray);
+    const ExactVector corner[3] = {ExactVector(t.a) - o, ExactVector(t.b) - o,
+                                   ExactVector(t.c) - o};
+    for (int i = 0; i < 3 && !signs.decided(); ++i)
+        if (!signs.known[i])
+            signs.set(i, dot(d, cross(corner[(i + 2) % 3], corner[(i + 1) % 3])).sign());
+}
+
+/// Whether origin + d, d = direction + tail, is exactly p.
+bool is_target(const ExactRay& ray, const Point3& p) {
+    for (int axis = 0; axis < 3; ++axis) {
+        const TwoTerms d = two_diff(p[axis], ray.origin()[axis]);
+        if (d.value != ray.direction()[axis] || d.error != ray.tail()[axis]) return false;
+    }
+    return true;
+}
+
+/// origin + d of a ray between two points: the second one.
+Point3 target(const ExactRay& ray) {
+    Point3 p;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double o = ray.origin()[axis];
+        const double sum = o + ray.direction()[axis];
+        const double back = two_diff(sum, o).value;
+        const double lost = (ray.direction()[axis] - back) - two_diff(sum, o).error;
+        p[axis] = sum + (lost + ray.tail()[axis]);
+    }
+    return p;
+}
+
+/// The way ends exactly in the triangle's plane, and so meets the triangle there if at all.
+bool ends_in_plane(const ExactRay& way, double end, const Triangle& t, StageCounts& counts) {
+    if (end != 1) return false;
+    const Point3 last = target(way);
+    return is_target(way, last) && counts.sides.side(t, last, counts.exact) == 0;
+}
+
+[[gnu::cold, gnu::noinline]] LineTest slow_line_test(const ExactRay& ray, double end,
+                                                     const Triangle& t, EdgeSigns signs,
+                                                     StageCounts& counts) {
+    add_signs<long double>(ray, t, signs);
+    if (signs.decided()) return signs.answer();
+    // What lies in a plane with the origin is not met beyond it, what with the end not before it.
+    if (counts.sides.side(t, ray.origin(), counts.exact) == 0 || ends_in_plane(ray, end, t, counts))
+        return LineTest::kMisses;
+    ++counts.exact;
+    add_exact_signs(ray, t, signs);
+    return signs.answer();
+}
+
 [[gnu::cold, gnu::noinline]] std::optional<Root> slow_hit(const ExactRay& ray,
                                                           const Triangle& triangle,
                                                           StageCounts& counts) {
@@ -78,6 +140,7 @@ Outcome try_blocks(const ExactRay& shadow, double end, double origin_error,
     const Outcome outcome = try_hit<long double>(ray, triangle, found);
     if (outcome == Outcome::kNo) return std::nullopt;
     if (outcome == Outcome::kYes) return found;
+    if (counts.sides.side(triangle, ray.origin(), counts.exact) == 0) return std::nullopt;
     ++counts.exact;
     const ExactPlaneRoot root = exact_plane_root(ray, triangle);
     if (root.numerator.sign() * root.denominator.sign() <= 0) return std::nullopt;
@@ -90,6 +153,7 @@ Outcome try_blocks(const ExactRay& shadow, double end, double origin_error,
     ++counts.wider;
     const Outcome outcome = try_blocks<long double>(shadow, end, origin_error, triangle);
     if (outcome != Outcome::kUnsure) return outcome == Outcome::kYes;
+    if (ends_in_plane(shadow, end, triangle, counts)) return false;
     ++counts.exact;
     const ExactPlaneRoot root = exact_plane_root(shadow, triangle);
     if (root.numerator.sign() * root.denominator.sign() <= 0) return false;
@@ -101,40 +165,12 @@ Outcome try_blocks(const ExactRay& shadow, double end, double origin_error,
 
 }  // namespace
 
-// First a bound for each edge, then exact signs.
-LineTest line_test_alone(const ExactRay& ray, const Triangle& t, StageCounts& counts) {
+LineTest line_test_alone(const ExactRay& ray, double end, const Triangle& t, StageCounts& counts) {
     if (std::isfinite(ray.edge_error())) ++counts.wider;
-    const Vector3 corner[3] = {t.a - ray.origin(), t.b - ray.origin(), t.c - ray.origin()};
-    int signs[3];
-    bool positive = false;
-    bool negative = false;
-    bool all_sure = true;
-    for (int i = 0; i < 3; ++i) {
-        const Vector3& p = corner[(i + 2) % 3];
-        const Vector3& q = corner[(i + 1) % 3];
-        const Bounded<double> edge =
-            triple_product(ray.direction(), cross(p, q), cross_magnitude(p, q));
-        signs[i] = edge.sure() ? edge.sign() : 0;
-        all_sure = all_sure && signs[i] != 0;
-        positive = positive || signs[i] > 0;
-        negative = negative || signs[i] < 0;
-    }
-    if (positive && negative) return LineTest::kMisses;
-    if (all_sure) return LineTest::kMeets;
-    ++counts.exact;
-    const ExactVector o(ray.origin());
-    const ExactVector d = exact_direction(ray);
-    const ExactVector exact_corner[3] = {ExactVector(t.a) - o, ExactVector(t.b) - o,
-                                         ExactVector(t.c) - o};
-    for (int i = 0; i < 3; ++i) {
-        if (signs[i] != 0) continue;
-        const int sign = exact_triple_sign(d, exact_corner[(i + 2) % 3], exact_corner[(i + 1) % 3]);
-        positive = positive || sign > 0;
-        negative = negative || sign < 0;
-        if (positive && negative) return LineTest::kMisses;
-    }
-    // All zero: the line lies in the plane, or there is no plane.
-    return positive || negative ? LineTest::kMeets : LineTest::kMisses;
+    EdgeSigns signs;
+    add_signs<double>(ray, t, signs);
+    if (signs.decided()) return signs.answer();
+    return slow_line_test(ray, end, t, signs, counts);
 }
 
 std::optional<Root> triangle_hit(const ExactRay& ray, const Triangle& triangle,

@@ -1,6 +1,10 @@
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "nuvo/octree/walk.h"
 #include "nuvo/render/primitives.h"
@@ -60,16 +64,19 @@ class ExactSearch {
           primitives_(primitives),
           octree_(octree),
           walk_(octree),
-          counter_(counter) {}
+          counter_(counter),
+          stamps_(primitives.item_count(), 0) {}
 
     std::optional<typename Kernel::Hit> closest(const typename Kernel::PreparedRay& ray) {
         std::optional<typename Kernel::Hit> best;
+        start();
         bool entered = false;
         walk_(kernel_.walk_ray(ray), Kernel::kInfinity, [&](const Node& leaf, double exit) {
             if (!entered && !octree_.root().is_leaf()) counter_.count_search();
             entered = true;
             counter_.count_tests(leaf.item_count);
-            for (ItemId item : octree_.contents(leaf)) kernel_.closest(ray, of_item(item), best);
+            for (ItemId item : octree_.contents(leaf))
+                if (is_new(item)) kernel_.closest(ray, of_item(item), best);
             // What is listed in a leaf but met beyond it is met again in its own leaf, so the
             // nearest hit is final once the ray leaves the leaf no earlier than there.
             const bool found = best && kernel_.upper_t(*best) <= exit;
@@ -84,10 +91,12 @@ class ExactSearch {
         // Not left to the leaves: its rounded point may lie outside of all that list it.
         const bool by_itself = kernel_.blocks_itself(shadow);
         bool blocked = by_itself;
+        start();
         walk_(kernel_.walk_ray(shadow.ray), shadow.end, [&](const Node& leaf, double exit) {
             counter_.count_tests(leaf.item_count);
             if (by_itself) return true;
             for (ItemId item : octree_.contents(leaf)) {
+                if (!is_new(item)) continue;
                 blocked = kernel_.blocks(shadow, of_item(item));
                 if (blocked) return true;
             }
@@ -98,6 +107,13 @@ class ExactSearch {
     }
 
   private:
+    void start() {
+        if (++ray_ != 0) return;
+        std::fill(stamps_.begin(), stamps_.end(), 0);
+        ray_ = 1;
+    }
+    bool is_new(ItemId item) { return std::exchange(stamps_[item], ray_) != ray_; }
+
     PrimitiveRange of_item(ItemId item) const {
         const PrimitiveRange range = primitives_.of_item(item);
         counter_.count_primitives(range);
@@ -109,6 +125,10 @@ class ExactSearch {
     const Octree& octree_;
     ExactWalk<Locator> walk_;
     Counter counter_;
+    // The ray that last met the item: no ray tests one twice, so that none costs more tests than
+    // there are items. [Arnaldi, Priol and Bouatouch 1987]
+    std::vector<std::uint32_t> stamps_;
+    std::uint32_t ray_ = 0;
 };
 
 /// Through the octree as published: the first leaf with a hit inside its own bounds decides, and

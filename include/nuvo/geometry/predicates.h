@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 #include <variant>
+#include <vector>
 
 #include "nuvo/geometry/ellipsoid.h"
 #include "nuvo/geometry/sphere.h"
@@ -17,10 +18,28 @@
 /// docs/numerics.md.
 namespace nuvo {
 
-/// Counts how often the cheap stage did not decide.
+/// Exact answers that were given before. A plane through the eye or a light, and two triangles in
+/// one plane, are asked about by every ray.
+class SideMemo {
+  public:
+    /// The exact sign of n.(a - p), with n = (b - a) x (c - a) not zero: on which side of the
+    /// triangle's plane p lies. `exact` counts the signs that exact arithmetic had to find.
+    int side(const Triangle& triangle, const Point3& p, std::uint64_t& exact);
+
+  private:
+    struct Entry {
+        Triangle triangle;
+        Point3 p;
+        int sign;
+    };
+    std::vector<Entry> entries_;  // by a hash, the last one asked for; none before the first
+};
+
+/// Counts how often the cheap stage did not decide, and keeps what cost most to find.
 struct StageCounts {
     std::uint64_t wider = 0;  ///< tighter bounds were computed, in double or in 64 bits
     std::uint64_t exact = 0;  ///< exact arithmetic decided
+    SideMemo sides;
 };
 
 namespace detail {
@@ -139,10 +158,13 @@ namespace detail {
 /// Whether the line has exactly one point in common with the triangle.
 enum class LineTest : std::uint8_t { kMisses, kMeets };
 
-/// The line test where the ray's own bound does not decide, or where it has none.
-LineTest line_test_alone(const ExactRay& ray, const Triangle& triangle, StageCounts& counts);
+/// The line test where the ray's own bound does not decide, or where it has none. It may also say
+/// that the line misses where it meets the triangle at t = 0, or at t = `end` = 1.
+LineTest line_test_alone(const ExactRay& ray, double end, const Triangle& triangle,
+                         StageCounts& counts);
 
-inline LineTest line_test(const ExactRay& ray, const Triangle& triangle, StageCounts& counts) {
+inline LineTest line_test(const ExactRay& ray, double end, const Triangle& triangle,
+                          StageCounts& counts) {
     const double error = ray.edge_error();
     const Vector3 a = triangle.a - ray.origin();
     const Vector3 b = triangle.b - ray.origin();
@@ -157,7 +179,7 @@ inline LineTest line_test(const ExactRay& ray, const Triangle& triangle, StageCo
     if (positive && negative) return LineTest::kMisses;
     if ((u > error && v > error && w > error) || (u < -error && v < -error && w < -error))
         return LineTest::kMeets;
-    return line_test_alone(ray, triangle, counts);
+    return line_test_alone(ray, end, triangle, counts);
 }
 
 /// The magnitudes within which the squares and products of the sphere's stage neither overflow nor
@@ -218,7 +240,8 @@ constexpr double surface_tolerance() { return 8 * root_tolerance(); }
 /// The hit at t > 0. Edges and vertices belong to the triangle; a ray within its plane, and a
 /// triangle without area, are never hit.
 inline std::optional<Root> hit(const ExactRay& ray, const Triangle& triangle, StageCounts& counts) {
-    const detail::LineTest test = detail::line_test(ray, triangle, counts);
+    constexpr double kEndless = std::numeric_limits<double>::infinity();
+    const detail::LineTest test = detail::line_test(ray, kEndless, triangle, counts);
     if (test == detail::LineTest::kMisses) return std::nullopt;
     return detail::triangle_hit(ray, triangle, counts);
 }
@@ -248,7 +271,7 @@ SurfacePoint surface_point(const ExactRay& ray, const Ellipsoid& ellipsoid, Sphe
 /// it. Everything else is decided exactly.
 inline bool blocks(const ExactRay& shadow, double end, double origin_error,
                    const Triangle& triangle, StageCounts& counts) {
-    const detail::LineTest test = detail::line_test(shadow, triangle, counts);
+    const detail::LineTest test = detail::line_test(shadow, end, triangle, counts);
     if (test == detail::LineTest::kMisses) return false;
     return detail::triangle_blocks(shadow, end, origin_error, triangle, counts);
 }

@@ -1,0 +1,55 @@
+#include <bit>
+
+#include "plane_root.h"
+#include "predicates_exact.h"
+
+namespace nuvo {
+namespace {
+
+constexpr std::size_t kEntries = 4096;  // 400 kB; a power of two
+
+/// Mixes a double into a hash (multiplication by an odd number close to 2^64 / golden ratio).
+std::uint64_t mixed(std::uint64_t hash, double value) {
+    hash = (hash ^ std::bit_cast<std::uint64_t>(value)) * 0x9e3779b97f4a7c15;
+    return hash ^ (hash >> 32);
+}
+std::uint64_t mixed(std::uint64_t hash, const Point3& p) {
+    return mixed(mixed(mixed(hash, p.x), p.y), p.z);
+}
+
+template <typename T>
+detail::Bounded<T> rounded_side(const Triangle& t, const Point3& p) {
+    const Vec3<T> a(t.a);
+    const Vec3<T> e1 = Vec3<T>(t.b) - a;
+    const Vec3<T> e2 = Vec3<T>(t.c) - a;
+    return detail::triple_product(a - Vec3<T>(p), cross(e1, e2), detail::cross_magnitude(e1, e2));
+}
+
+int exact_side(const Triangle& t, const Point3& p) {
+    const ExactVector a(t.a);
+    return dot(cross(ExactVector(t.b) - a, ExactVector(t.c) - a), a - ExactVector(p)).sign();
+}
+
+bool same(const Triangle& s, const Triangle& t) { return s.a == t.a && s.b == t.b && s.c == t.c; }
+
+}  // namespace
+
+int SideMemo::side(const Triangle& triangle, const Point3& p, std::uint64_t& exact) {
+    if (p == triangle.a || p == triangle.b || p == triangle.c) return 0;
+    const detail::Bounded<double> cheap = rounded_side<double>(triangle, p);
+    if (cheap.sure()) return cheap.sign();
+    const detail::Bounded<long double> wider = rounded_side<long double>(triangle, p);
+    if (wider.sure()) return wider.sign();
+    if (wider.vanishes()) return 0;
+    // An empty entry's triangle has no area, and is not asked about.
+    if (entries_.empty()) entries_.resize(kEntries);
+    const std::uint64_t hash = mixed(mixed(mixed(mixed(0, triangle.a), triangle.b), triangle.c), p);
+    Entry& entry = entries_[hash % kEntries];
+    if (!same(entry.triangle, triangle) || !(entry.p == p)) {
+        ++exact;
+        entry = {triangle, p, exact_side(triangle, p)};
+    }
+    return entry.sign;
+}
+
+}  // namespace nuvo
