@@ -150,7 +150,8 @@ SceneCounts count(const Scene& scene) {
 
 TreeFigures figures(const Octree& octree) {
     return {octree.depth(),           octree.leaf_count(),   octree.nodes().size(),
-            octree.reference_count(), octree.memory_bytes(), octree.smallest_width()};
+            octree.reference_count(), octree.memory_bytes(), octree.smallest_width(),
+            octree.out_of_budget()};
 }
 
 TileFigures figures(const FastTracer& tracer, const FastOptions& options) {

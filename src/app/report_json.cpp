@@ -27,6 +27,7 @@ void write_tree(JsonWriter& json, const TreeFigures& tree) {
     json.member("references", tree.references);
     json.member("memory_bytes", tree.memory_bytes);
     json.member("smallest_width", tree.smallest_width);
+    json.member("out_of_budget", tree.out_of_budget);
     json.end_object();
 }
 

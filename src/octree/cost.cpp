@@ -13,6 +13,4 @@ SahCosts ThesisCosts::operator()(std::size_t leaves) const {
     return {voxels * voxels, shapes / voxels, lights * shapes * shapes};
 }
 
-SahCosts CalibratedCosts::operator()(std::size_t) const { return {step, step, 1}; }
-
 }  // namespace nuvo

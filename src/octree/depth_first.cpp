@@ -1,6 +1,5 @@
 #include "depth_first.h"
 
-#include <algorithm>
 #include <numeric>
 
 namespace nuvo {
@@ -45,26 +44,20 @@ std::optional<TrialCut> DepthFirstBuilder::kept_cut(const Node& node, const Item
     const int digits = label_digits(node.label);
     if (digits >= kMaxLabelDigits || digits + 1 >= options_.max_depth) return std::nullopt;
     if (references_ >= options_.max_references) return std::nullopt;
-    if (const auto* rule = std::get_if<MaxObjects>(&options_.worth))
-        if (items.size() <= rule->count) return std::nullopt;
     std::optional<TrialCut> trial = cutter_.cut(node.voxel, items);
     if (!trial) return std::nullopt;
     const SahTotals after = sums_after(totals_, *trial, items.size());
-    if (!worth_it(after, *trial, items.size())) return std::nullopt;
+    if (!worth_it(after)) return std::nullopt;
     totals_ = after;
     references_ += trial->references();
     references_ -= items.size();
     return trial;
 }
 
-bool DepthFirstBuilder::worth_it(const SahTotals& after, const TrialCut& trial,
-                                 std::size_t items) const {
-    if (const auto* costs = std::get_if<CostModel>(&options_.worth))
-        return sah(after, root_area_, (*costs)(after.leaves)) <
-               sah(totals_, root_area_, (*costs)(totals_.leaves));
-    // Without a price, a cut that leaves every item in two or more octants gains nothing.
-    return std::count_if(trial.octants.begin(), trial.octants.end(),
-                         [&](const Items& octant) { return octant.size() == items; }) < 2;
+bool DepthFirstBuilder::worth_it(const SahTotals& after) const {
+    const CostModel& costs = std::get<CostModel>(options_.worth);
+    return sah(after, root_area_, costs(after.leaves)) <
+           sah(totals_, root_area_, costs(totals_.leaves));
 }
 
 }  // namespace nuvo

@@ -17,7 +17,7 @@ class DepthFirstBuilder {
   private:
     void subdivide(NodeIndex index, const Items& items);
     std::optional<TrialCut> kept_cut(const Node& node, const Items& items);
-    bool worth_it(const SahTotals& after, const TrialCut& trial, std::size_t items) const;
+    bool worth_it(const SahTotals& after) const;
 
     const BuildOptions& options_;
     Cutter cutter_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace nuvo {
 
@@ -64,8 +65,20 @@ double swept_plane(const SplitQuery& query, int axis) {
     const Vector3 w = box.widths();
     const double across = w[(axis + 1) % 3] * w[(axis + 2) % 3];  // area of the cut
     const double around = w[(axis + 1) % 3] + w[(axis + 2) % 3];  // half its perimeter
-    const double clearance = 4 * query.margin;
+    // Also without a margin the plane must not touch a face: 4 units in the last place.
+    const double size = std::fmax(std::fabs(box.min[axis]), std::fabs(box.max[axis]));
+    const double ulp = std::nextafter(size, std::numeric_limits<double>::infinity()) - size;
+    const double clearance = 4 * std::fmax(query.margin, ulp);
     const AxisEdges edges(query.boxes, axis);
+    // As items are placed: one that touches the plane lies on both sides.
+    const auto count_left = [&](double plane) {
+        return std::upper_bound(edges.begins().begin(), edges.begins().end(), plane) -
+               edges.begins().begin();
+    };
+    const auto count_right = [&](double plane) {
+        return edges.ends().end() -
+               std::lower_bound(edges.ends().begin(), edges.ends().end(), plane);
+    };
 
     double best_plane = box.center()[axis];
     double best_cost = std::numeric_limits<double>::infinity();
@@ -73,8 +86,8 @@ double swept_plane(const SplitQuery& query, int axis) {
         if (!(box.min[axis] < plane && plane < box.max[axis])) return;
         const double left_area = across + (plane - box.min[axis]) * around;
         const double right_area = across + (box.max[axis] - plane) * around;
-        const double cost = left_area * static_cast<double>(edges.left_of(plane)) +
-                            right_area * static_cast<double>(edges.right_of(plane));
+        const double cost = left_area * static_cast<double>(count_left(plane)) +
+                            right_area * static_cast<double>(count_right(plane));
         if (cost < best_cost) {
             best_cost = cost;
             best_plane = plane;

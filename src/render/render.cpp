@@ -16,10 +16,9 @@ namespace {
 
 // The cap of the published program, its "smallest voxel": it counts levels, the root's included.
 constexpr int kThesisMaxDepth = 9;
-// Where items touch or lie along one diagonal, cuts pay by the costs but hardly part them: 46 s and
-// 1.8 GB for 30,000 triangles. Scenes that are not made to hurt stay below 8 references an item.
-constexpr std::size_t kReferencesPerItem = 8;
-constexpr std::size_t kReferencesOfSmallScenes = 1 << 16;
+// The octree may hold so many references: see docs/performance.md, "The octree's budget".
+constexpr std::size_t kReferencesPerItem = 4;
+constexpr std::size_t kReferencesOfSmallScenes = 1 << 20;
 // Triangles of the octahedra by which `thesis_weight` is stated.
 constexpr double kTrianglesOfReference = 8;
 
@@ -131,9 +130,12 @@ Octree build_tree(const Scene& scene, const Primitives& primitives, const Profil
         options.worth = CostModel(ThesisCosts{weighted_shapes(scene, profile.thesis_weight),
                                               static_cast<double>(scene.lights.size())});
         options.max_depth = kThesisMaxDepth;
-    } else
+    } else {
+        options.midpoint = shrinking(options.midpoint);
+        options.fallback = shrinking(spatial_midpoint);
         options.max_references =
             kReferencesPerItem * primitives.item_count() + kReferencesOfSmallScenes;
+    }
     if (profile.max_objects) options.worth = MaxObjects{*profile.max_objects};
     if (profile.leaves == LeafContent::kPrimitives)
         options.overlaps = [&](ItemId id, const Bounds3& box) {

@@ -138,7 +138,7 @@ TEST(Build, LeavesTileTheRootAndListWhatTheyOverlap) {
           MidpointStrategy(mlsl_sbplx_midpoint)}) {
         BuildOptions options;
         options.midpoint = midpoint;
-        options.worth = CostModel(CalibratedCosts{2});
+        options.worth = CalibratedCosts{2};
         const Octree octree = build_octree(boxes, options);
         EXPECT_EQ(octree.leaf_count() % 7, 1U);
         double volume = 0;
@@ -224,7 +224,7 @@ TEST(Build, AFlatSceneIsStillATree) {
          {MidpointStrategy(spatial_midpoint), MidpointStrategy(sweep_midpoint)}) {
         BuildOptions options;
         options.midpoint = midpoint;
-        options.worth = CostModel(CalibratedCosts{2});
+        options.worth = CalibratedCosts{2};
         options.margin = 0x1p-46;
         const Octree octree = build_octree(boxes, options);
         EXPECT_GT(octree.leaf_count(), 20U);

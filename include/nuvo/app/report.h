@@ -34,6 +34,7 @@ struct TreeFigures {
     std::size_t references = 0;
     std::size_t memory_bytes = 0;
     double smallest_width = 0;
+    bool out_of_budget = false;  ///< cuts that pay were left out
 };
 TreeFigures figures(const Octree& octree);
 

@@ -22,6 +22,11 @@ using MidpointStrategy = std::function<std::optional<Point3>(const SplitQuery&)>
 /// The spatial centre: the uniform octree.
 std::optional<Point3> spatial_midpoint(const SplitQuery& query);
 
+/// `strategy`, but for axes where all items that end within the voxel lie in less than a quarter of
+/// it: there the plane cuts off the wider of the two sides without them. So a small object on a
+/// wide ground is reached by two cuts instead of one for each power of two between their sizes.
+MidpointStrategy shrinking(MidpointStrategy strategy);
+
 /// Per axis, the plane of least true-area cost LSA(b) L(b) + RSA(b) R(b) [eq. 11 with objects on
 /// the plane counted on both sides], searched over every object edge in the voxel. The plane stands
 /// clear of the edge it belongs to, for an object that touched it would lie on both sides.

@@ -48,6 +48,9 @@ class Octree {
     int depth() const { return depth_; }
     /// References to items over all leaves.
     std::size_t reference_count() const { return items_.size(); }
+    /// Whether the builder's budget of references kept it from cuts that pay.
+    bool out_of_budget() const { return out_of_budget_; }
+    void set_out_of_budget(bool value) { out_of_budget_ = value; }
     /// Bytes of nodes, references and the hash map's entries.
     std::size_t memory_bytes() const;
 
@@ -69,6 +72,7 @@ class Octree {
     std::unordered_map<Label, NodeIndex> names_;
     int depth_ = 0;
     double smallest_width_ = 0;
+    bool out_of_budget_ = false;
 };
 
 /// The tree as text, a node a line, indented by level (the -showoctree flag).
