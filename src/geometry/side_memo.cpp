@@ -17,39 +17,53 @@ std::uint64_t mixed(std::uint64_t hash, const Point3& p) {
     return mixed(mixed(mixed(hash, p.x), p.y), p.z);
 }
 
+// n.(a - p), or -n.p where p is a direction.
 template <typename T>
-detail::Bounded<T> rounded_side(const Triangle& t, const Point3& p) {
+detail::Bounded<T> rounded_side(const Triangle& t, const Vector3& p, bool far) {
     const Vec3<T> a(t.a);
     const Vec3<T> e1 = Vec3<T>(t.b) - a;
     const Vec3<T> e2 = Vec3<T>(t.c) - a;
-    return detail::triple_product(a - Vec3<T>(p), cross(e1, e2), detail::cross_magnitude(e1, e2));
+    return detail::triple_product(far ? -Vec3<T>(p) : a - Vec3<T>(p), cross(e1, e2),
+                                  detail::cross_magnitude(e1, e2));
 }
 
-int exact_side(const Triangle& t, const Point3& p) {
-    const ExactVector a(t.a);
-    return dot(cross(ExactVector(t.b) - a, ExactVector(t.c) - a), a - ExactVector(p)).sign();
+std::optional<int> sure_side(const Triangle& t, const Vector3& p, bool far) {
+    const detail::Bounded<double> cheap = rounded_side<double>(t, p, far);
+    if (cheap.sure()) return cheap.sign();
+    const detail::Bounded<long double> wider = rounded_side<long double>(t, p, far);
+    if (wider.sure()) return wider.sign();
+    if (wider.vanishes()) return 0;
+    return std::nullopt;
 }
 
 bool same(const Triangle& s, const Triangle& t) { return s.a == t.a && s.b == t.b && s.c == t.c; }
 
 }  // namespace
 
-int SideMemo::side(const Triangle& triangle, const Point3& p, std::uint64_t& exact) {
-    if (p == triangle.a || p == triangle.b || p == triangle.c) return 0;
-    const detail::Bounded<double> cheap = rounded_side<double>(triangle, p);
-    if (cheap.sure()) return cheap.sign();
-    const detail::Bounded<long double> wider = rounded_side<long double>(triangle, p);
-    if (wider.sure()) return wider.sign();
-    if (wider.vanishes()) return 0;
+int SideMemo::exact_side(const Triangle& t, const Vector3& p, bool far, std::uint64_t& exact) {
     // An empty entry's triangle has no area, and is not asked about.
     if (entries_.empty()) entries_.resize(kEntries);
-    const std::uint64_t hash = mixed(mixed(mixed(mixed(0, triangle.a), triangle.b), triangle.c), p);
+    const std::uint64_t hash = mixed(mixed(mixed(mixed(far ? 1 : 0, t.a), t.b), t.c), p);
     Entry& entry = entries_[hash % kEntries];
-    if (!same(entry.triangle, triangle) || !(entry.p == p)) {
+    if (!same(entry.triangle, t) || !(entry.p == p) || entry.far != far) {
         ++exact;
-        entry = {triangle, p, exact_side(triangle, p)};
+        const ExactVector a(t.a);
+        const ExactVector normal = cross(ExactVector(t.b) - a, ExactVector(t.c) - a);
+        const ExactVector way = far ? ExactVector(-p) : a - ExactVector(p);
+        entry = {t, p, far, dot(normal, way).sign()};
     }
     return entry.sign;
+}
+
+int SideMemo::side(const Triangle& triangle, const Point3& p, std::uint64_t& exact) {
+    if (p == triangle.a || p == triangle.b || p == triangle.c) return 0;
+    if (const std::optional<int> sign = sure_side(triangle, p, false)) return *sign;
+    return exact_side(triangle, p, false, exact);
+}
+
+int SideMemo::side_along(const Triangle& triangle, const Vector3& d, std::uint64_t& exact) {
+    if (const std::optional<int> sign = sure_side(triangle, d, true)) return *sign;
+    return exact_side(triangle, d, true, exact);
 }
 
 }  // namespace nuvo

@@ -5,6 +5,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "hull_planes.h"
 #include "nuvo/geometry/predicates.h"
 #include "nuvo/render/primitives.h"
 #include "primitive_store.h"
@@ -47,6 +48,7 @@ class ExactKernelOf {
         double end;  // of the way to the light, in units of the ray's direction
         double origin_error;
         std::optional<PrimitiveId> from;  // the primitive that is lit; none: the bias has left it
+        const Light* light;
     };
     static constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -108,14 +110,51 @@ class ExactKernelOf {
         const double error = bias_ ? 0 : surface.error;
         const auto from = bias_ ? std::nullopt : std::optional<PrimitiveId>(surface.primitive);
         if (light.kind == Light::Kind::kDirectional)
-            return {ExactRay(Ray{origin, -light.direction}, triangles_), kInfinity, error, from};
-        return {ExactRay::between(origin, light.location, triangles_), 1, error, from};
+            return {ExactRay(Ray{origin, -light.direction}, triangles_), kInfinity, error, from,
+                    &light};
+        return {ExactRay::between(origin, light.location, triangles_), 1, error, from, &light};
     }
 
     bool blocks(const Shadow& shadow, PrimitiveRange range) const {
         for (PrimitiveId id = range.first; id < range.last; ++id)
             if (blocks_before(shadow, shadow.end, id)) return true;
         return false;
+    }
+    /// Around the primitives of these ids.
+    template <typename Ids>
+    HullPlanes hull(const Ids& ids) const {
+        HullPlanes planes;
+        for (const PrimitiveId id : ids)
+            if (!with_triangle(id, [&](const Triangle& t) { return planes = HullPlanes(t), true; }))
+                return {};
+        for (const PrimitiveId id : ids)
+            with_triangle(id, [&](const Triangle& t) {
+                for (const Point3& corner : {t.a, t.b, t.c}) planes.hold(corner);
+                return true;
+            });
+        return planes;
+    }
+    /// Whether `other` can be left out where a ray from `eye` meets `front`.
+    bool hides(PrimitiveId front, const Point3& eye, PrimitiveId other) const {
+        return with_triangle(front, [&](const Triangle& f) {
+            return with_triangle(other, [&](const Triangle& o) {
+                return nuvo::hides(f, eye, o, front < other, counts_);
+            });
+        });
+    }
+    bool lights_triangle(const Shadow& shadow) const {
+        return shadow.from && with_triangle(*shadow.from, [](const Triangle&) { return true; });
+    }
+    /// Whether `other` can be left out on all ways from the lit triangle to the light.
+    bool leaves_in_light(PrimitiveId other, const Shadow& shadow) const {
+        const Light& light = *shadow.light;
+        const bool endless = light.kind == Light::Kind::kDirectional;
+        return with_triangle(*shadow.from, [&](const Triangle& lit) {
+            return with_triangle(other, [&](const Triangle& o) {
+                return nuvo::leaves_in_light(o, lit, endless ? -light.direction : light.location,
+                                             endless, counts_);
+            });
+        });
     }
     /// Whether the primitive that is lit stands in its own light.
     bool blocks_itself(const Shadow& shadow) const {
@@ -143,6 +182,17 @@ class ExactKernelOf {
         const std::optional<SphereHit> found = hit(ray, quadric, counts_);
         if (!found) return std::nullopt;
         return Hit{id, found->root, found->which};
+    }
+
+    // What `use` says of the triangle of that id; of others false.
+    template <typename Use>
+    bool with_triangle(PrimitiveId id, Use&& use) const {
+        return store_.visit(id, [&](const auto& primitive) {
+            if constexpr (std::is_same_v<std::decay_t<decltype(primitive)>, Triangle>)
+                return use(primitive);
+            else
+                return false;
+        });
     }
 
     bool blocks_before(const Shadow& shadow, double end, PrimitiveId id) const {

@@ -3,9 +3,13 @@
 #include <algorithm>
 #include <cstdint>
 #include <optional>
+#include <span>
+#include <type_traits>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
+#include "crowd.h"
 #include "nuvo/octree/walk.h"
 #include "nuvo/render/primitives.h"
 #include "nuvo/render/render.h"
@@ -75,8 +79,10 @@ class ExactSearch {
             if (!entered && !octree_.root().is_leaf()) counter_.count_search();
             entered = true;
             counter_.count_tests(leaf.item_count);
-            for (ItemId item : octree_.contents(leaf))
-                if (is_new(item)) kernel_.closest(ray, of_item(item), best);
+            if (is_crowd(leaf))
+                closest_in_crowd(ray, leaf, best);
+            else
+                test(ray, octree_.contents(leaf), best);
             // What is listed in a leaf but met beyond it is met again in its own leaf, so the
             // nearest hit is final once the ray leaves the leaf no earlier than there.
             const bool found = best && kernel_.upper_t(*best) <= exit;
@@ -95,11 +101,9 @@ class ExactSearch {
         walk_(kernel_.walk_ray(shadow.ray), shadow.end, [&](const Node& leaf, double exit) {
             counter_.count_tests(leaf.item_count);
             if (by_itself) return true;
-            for (ItemId item : octree_.contents(leaf)) {
-                if (!is_new(item)) continue;
-                blocked = kernel_.blocks(shadow, of_item(item));
-                if (blocked) return true;
-            }
+            blocked = is_crowd(leaf) ? blocked_by_crowd(shadow, leaf)
+                                     : blocked_by(shadow, octree_.contents(leaf));
+            if (blocked) return true;
             if (exit < shadow.end) counter_.count_search();
             return false;
         });
@@ -107,12 +111,70 @@ class ExactSearch {
     }
 
   private:
+    // Only exact answers of one ray say anything about another.
+    static constexpr bool kHasCrowds = std::is_same_v<typename Kernel::PreparedRay, ExactRay>;
+
     void start() {
         if (++ray_ != 0) return;
         std::fill(stamps_.begin(), stamps_.end(), 0);
         ray_ = 1;
     }
     bool is_new(ItemId item) { return std::exchange(stamps_[item], ray_) != ray_; }
+
+    void test(const typename Kernel::PreparedRay& ray, std::span<const ItemId> items,
+              std::optional<typename Kernel::Hit>& best) {
+        for (const ItemId item : items)
+            if (is_new(item)) kernel_.closest(ray, of_item(item), best);
+    }
+    bool blocked_by(const typename Kernel::Shadow& shadow, std::span<const ItemId> items) {
+        for (const ItemId item : items)
+            if (is_new(item) && kernel_.blocks(shadow, of_item(item))) return true;
+        return false;
+    }
+
+    bool is_crowd(const Node& leaf) const {
+        if constexpr (kHasCrowds)
+            return leaf.item_count >= Crowd<Kernel>::kLeast &&
+                   primitives_.item_count() == primitives_.sources.size();
+        return false;
+    }
+    auto& crowd_of(const Node& leaf) {
+        return crowds_.try_emplace(leaf.first_item, kernel_, octree_.contents(leaf)).first->second;
+    }
+    void closest_in_crowd(const typename Kernel::PreparedRay& ray, const Node& leaf,
+                          std::optional<typename Kernel::Hit>& best) {
+        if constexpr (kHasCrowds) {
+            Crowd<Kernel>& crowd = crowd_of(leaf);
+            if (crowd.surely_missed(ray)) return;
+            if (const auto* front = crowd.front(ray.origin())) {
+                const auto hit = kernel_.hit_of(ray, front->first);
+                counter_.count_primitives({front->first, front->first + 1});
+                if (hit) {
+                    if (!best || kernel_.precedes(ray, *hit, *best)) best = hit;
+                    return test(ray, front->rivals, best);
+                }
+            }
+            const auto before = best;
+            test(ray, crowd.items(), best);
+            if (best && (!before || best->primitive != before->primitive))
+                crowd.won(ray.origin(), best->primitive);
+        }
+    }
+    bool blocked_by_crowd(const typename Kernel::Shadow& shadow, const Node& leaf) {
+        if constexpr (kHasCrowds) {
+            Crowd<Kernel>& crowd = crowd_of(leaf);
+            if (crowd.surely_missed(shadow.ray)) return false;
+            if (const auto usual = crowd.usual_blocker)
+                if (is_new(*usual) && kernel_.blocks(shadow, of_item(*usual))) return true;
+            const std::vector<ItemId>* const some = crowd.blockers(shadow);
+            for (const ItemId item : some ? std::span<const ItemId>(*some) : crowd.items()) {
+                if (!is_new(item) || !kernel_.blocks(shadow, of_item(item))) continue;
+                crowd.usual_blocker = item;
+                return true;
+            }
+        }
+        return false;
+    }
 
     PrimitiveRange of_item(ItemId item) const {
         const PrimitiveRange range = primitives_.of_item(item);
@@ -129,6 +191,9 @@ class ExactSearch {
     // there are items. [Arnaldi, Priol and Bouatouch 1987]
     std::vector<std::uint32_t> stamps_;
     std::uint32_t ray_ = 0;
+    struct None {};
+    // By the leaf's first item.
+    std::conditional_t<kHasCrowds, std::unordered_map<std::uint32_t, Crowd<Kernel>>, None> crowds_;
 };
 
 /// Through the octree as published: the first leaf with a hit inside its own bounds decides, and

@@ -25,13 +25,18 @@ class SideMemo {
     /// The exact sign of n.(a - p), with n = (b - a) x (c - a) not zero: on which side of the
     /// triangle's plane p lies. `exact` counts the signs that exact arithmetic had to find.
     int side(const Triangle& triangle, const Point3& p, std::uint64_t& exact);
+    /// The same for a point infinitely far away in the direction d.
+    int side_along(const Triangle& triangle, const Vector3& d, std::uint64_t& exact);
 
   private:
     struct Entry {
         Triangle triangle;
-        Point3 p;
+        Vector3 p;
+        bool far;  // p is a direction
         int sign;
     };
+    int exact_side(const Triangle& triangle, const Vector3& p, bool far, std::uint64_t& exact);
+
     std::vector<Entry> entries_;  // by a hash, the last one asked for; none before the first
 };
 
@@ -282,5 +287,14 @@ inline bool blocks(const ExactRay& shadow, double end, double origin_error, cons
 }
 bool blocks(const ExactRay& shadow, double end, double origin_error, const Ellipsoid& ellipsoid,
             bool origin_on_it, StageCounts& counts);
+
+/// No ray from `eye` that meets both triangles meets `other` before `front`, nor, unless `front`
+/// wins where they are met together, at the same t. False: not known.
+bool hides(const Triangle& front, const Point3& eye, const Triangle& other, bool wins_ties,
+           StageCounts& counts);
+/// `other` blocks no way from a rounded point of `lit` to `light`, which is a point, or a direction
+/// where `endless`: it leaves all of `lit` on the light's side. False: not known.
+bool leaves_in_light(const Triangle& other, const Triangle& lit, const Vector3& light, bool endless,
+                     StageCounts& counts);
 
 }  // namespace nuvo
