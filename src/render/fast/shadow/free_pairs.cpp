@@ -9,7 +9,7 @@ namespace nuvo {
 namespace {
 
 // The sign of n.v for the normal n = (b - a) x (c - a) of a triangle, exactly, where v is a
-// direction or leads from a.
+// direction or leads from a corner.
 class PlaneSide {
   public:
     explicit PlaneSide(const Triangle& t) : a_(t.a), b_(t.b), c_(t.c) {
@@ -19,8 +19,13 @@ class PlaneSide {
         size_ = max_norm(e1) * max_norm(e2);
     }
 
+    // From the nearest corner, so that coincident triangles keep their digits; a corner is in the
+    // plane.
     int of_point(const Point3& p) const {
-        const Vector3 way = p - a_;
+        Vector3 way = p - a_;
+        for (const Point3& corner : {b_, c_})
+            if (max_norm(p - corner) < max_norm(way)) way = p - corner;
+        if (way == Vector3{}) return 0;
         const int sign = rounded(way);
         return sign != 0 ? sign : exact(ExactVector(p) - ExactVector(a_));
     }

@@ -7,6 +7,7 @@
 #define HWY_TARGET_INCLUDE "fast/shadow/shadow.cpp"
 #include <hwy/foreach_target.h>
 
+#include "fast/shadow/segment_box.h"
 #include "fast/shadow/shadow_beam.h"
 #include "fast/shadow/shadow_block.h"
 #include "fast/shadow/shadow_lookup.h"
@@ -73,12 +74,31 @@ class ShadowTracer {
             });
     }
 
+    // By counting: lists are long where nothing else is.
+    static void sort_by_lane(std::vector<OpenShadow>& open) {
+        std::size_t starts[kTileLanes + 1] = {};
+        for (const OpenShadow& one : open) ++starts[one.lane + 1];
+        for (int lane = 0; lane < kTileLanes; ++lane) starts[lane + 1] += starts[lane];
+        std::vector<OpenShadow> sorted(open.size());
+        for (const OpenShadow& one : open) sorted[starts[one.lane]++] = one;
+        open = std::move(sorted);
+    }
+
+    // A box is cheaper than exactness; in wide scenes floats leave most of the small things open.
+    template <typename Shadow>
+    bool blocks(const Shadow& ray, Slot item) const {
+        const FastScene& scene = context_.job.tables.scene();
+        return (item >= scene.triangle_end() ||
+                may_meet(ray.ray, ray.end, scene.primitives().item_boxes[scene.id(item)])) &&
+               fallback_.blocks(ray, item);
+    }
+
     // Asks the fallback about the points that nothing has surely blocked, point by point, so that
     // each point's shadow ray is made once.
     void settle() {
         std::vector<OpenShadow>& open = context_.job.open;
-        std::sort(open.begin(), open.end(),
-                  [](const auto& a, const auto& b) { return a.lane < b.lane; });
+        if (open.empty()) return;
+        sort_by_lane(open);
         for (auto at = open.begin(); at != open.end();) {
             const std::uint32_t lane = at->lane;
             const auto end = std::find_if(at, open.end(),
@@ -89,8 +109,7 @@ class ShadowTracer {
                 const auto i = static_cast<int>(lane);
                 const auto ray = fallback_.shadow_ray(tile_.x + lane_x(i), tile_.y + lane_y(i),
                                                       tile_.slot[i], light_);
-                if (std::any_of(at, end,
-                                [&](const auto& o) { return fallback_.blocks(ray, o.item); }))
+                if (std::any_of(at, end, [&](const auto& o) { return blocks(ray, o.item); }))
                     block.block(bit);
             }
             at = end;
