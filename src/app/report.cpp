@@ -195,6 +195,7 @@ std::string report_text(const Options& options, const Report& report) {
         format("%-10s %s: %s, %s, %s, %s\n", "scene", report.file.c_str(),
                counted(scene.shapes, "shape").c_str(), counted(scene.triangles, "triangle").c_str(),
                counted(scene.spheres, "sphere").c_str(), counted(scene.lights, "light").c_str());
+    text += format("%-10s %.6f s to read the scene\n", "read", report.parse_seconds);
     text += format("%-10s %s\n", "profile", profile_flags_text(options).c_str());
     if (type_is_measured(options))
         text += format("%-10s %s, which was measured faster (--type chooses)\n", "type",

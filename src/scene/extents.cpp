@@ -44,9 +44,13 @@ class Measurer {
         Extent extent;
     };
 
-    /// Elements that are come to twice: those with a name, and those that are referred to.
+    /// Elements that may be come to twice: those with a name, and those that are referred to.
     static bool may_be_shared(const Element& place, const Element& element) {
-        return &place != &element || element.find("DEF") != nullptr;
+        // What a ProtoInstance makes stands below it.
+        const bool is_made = place.name == "ProtoInstance" && place.find("USE") == nullptr &&
+                             !place.children.empty();
+        return (&place != &element && !is_made) || place.find("DEF") != nullptr ||
+               element.find("DEF") != nullptr;
     }
 
     [[noreturn]] void refuse_cycle(const Element& place) const {

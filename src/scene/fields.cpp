@@ -101,6 +101,8 @@ bool Fields::boolean(std::string_view name, bool fallback) const {
     const std::string_view word = next_word(rest);
     if (word == "true" || word == "TRUE") return true;
     if (word == "false" || word == "FALSE") return false;
+    if (!messages_.is_strict() && word == "True") return true;  // as Python writes it
+    if (!messages_.is_strict() && word == "False") return false;
     reject(name, in_quotes(*text) + " is neither true nor false");
     return fallback;
 }

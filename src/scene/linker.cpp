@@ -110,7 +110,7 @@ void Linker::expand(Visit& visit) {
     Element& instance = *visit.element;
     instance.target = &kNothing;  // until it is made
     const std::string_view name = instance.text("name");
-    const Prototype prototype = find_prototype(name);
+    const Prototype prototype = find_prototype(name, instance);
     const std::string shown = "\"" + excerpt(name) + "\"";
     if (prototype.declaration == nullptr)
         return messages_.warn_left_out(
@@ -145,8 +145,9 @@ void Linker::check_cycle(const Element& declaration, const Element& instance) co
                                  "\" is inside its own declaration");
 }
 
-Prototype Linker::find_prototype(std::string_view name) const {
+Prototype Linker::find_prototype(std::string_view name, const Element& instance) {
     for (const Scope* scope = &scopes_.back(); scope != nullptr; scope = scope->prototype.around) {
+        made_.take(1, 0, instance);
         const auto found = scope->declarations.find(name);
         const Document& document = *scope->prototype.document;
         if (found != scope->declarations.end())

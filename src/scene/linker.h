@@ -41,7 +41,7 @@ class Linker {
     void leave();
     void resolve(Element& element, bool is_script);
     void expand(Visit& instance);
-    Prototype find_prototype(std::string_view name) const;
+    Prototype find_prototype(std::string_view name, const Element& instance);
     void declare_nested(const Element& declaration, const Element& instance, Scope& scope);
     void check_cycle(const Element& declaration, const Element& instance) const;
     void resolve_late(Scope& scope);

@@ -27,7 +27,8 @@ std::string_view Names::attribute_name(std::string_view spelled, const Element& 
     auto found = names.find(spelled);
     if (found == names.end()) {
         found = names.try_emplace(std::string(spelled)).first;
-        const FieldName field = find_field(element.name, spelled);
+        constexpr std::size_t kMostSuggestions = 1000;  // each takes some microseconds
+        const FieldName field = find_field(element.name, spelled, names.size() < kMostSuggestions);
         const bool is_taken = !strict_ && field.name != spelled;
         found->second.meant = is_taken ? field.name : std::string_view(found->first);
         found->second.suggestion = is_taken ? std::string_view{} : field.suggestion;

@@ -152,7 +152,7 @@ std::size_t distance(std::string_view a, std::string_view b) {
 
 }  // namespace
 
-FieldName find_field(std::string_view node, std::string_view attribute) {
+FieldName find_field(std::string_view node, std::string_view attribute, bool suggest) {
     const auto known = node_fields().find(node);
     static const Fields every_node = words_of({kEveryNode});
     const Fields& fields = known == node_fields().end() ? every_node : known->second;
@@ -163,7 +163,7 @@ FieldName find_field(std::string_view node, std::string_view attribute) {
     const std::size_t most = attribute.size() < 6 ? 1 : 2;
     FieldName result{attribute, {}};
     std::size_t nearest = most + 1;
-    if (known == node_fields().end() || attribute.size() < 4 || attribute.size() > 40)
+    if (!suggest || known == node_fields().end() || attribute.size() < 4 || attribute.size() > 40)
         return result;
     for (const std::string_view field : fields) {
         const std::size_t slips = distance(attribute, field);

@@ -46,12 +46,12 @@ std::string_view right_spelling(std::string_view name);
 
 /// What stands for an attribute of a node. `name` is the field's own where only the case of its
 /// letters was wrong; `suggestion` is the field that was probably meant where the node has none of
-/// that name.
+/// that name, which is looked for if `suggest`.
 struct FieldName {
     std::string_view name;
     std::string_view suggestion;
 };
-FieldName find_field(std::string_view node, std::string_view attribute);
+FieldName find_field(std::string_view node, std::string_view attribute, bool suggest);
 
 /// Warns that a node is not drawn, unless its name is misspelt.
 void warn_not_drawn(const Element& element, Messages& messages);

@@ -4,7 +4,6 @@
 #include <sys/inotify.h>
 #include <sys/wait.h>
 
-#include <chrono>
 #include <random>
 
 #include "cli/program_runner.h"
@@ -38,17 +37,20 @@ class Hostile : public ProgramTest {
         put("hostile.x3d", text);
         fs::remove(folder_ / "hostile.bmp");
         flags.insert(flags.end(), {"--file=hostile", "--res=64,64", "--rep=1", "--quiet"});
-        const auto begin = std::chrono::steady_clock::now();
         const pid_t child = start(flags);
         int status = 0;
         rusage used{};
         EXPECT_EQ(::wait4(child, &status, 0, &used), child);
-        const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
+        // Processor time: what else runs on the machine is no fault of the program's.
+        const auto seconds = [](const timeval& t) {
+            return static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_usec) * 1e-6;
+        };
+        const double time = seconds(used.ru_utime) + seconds(used.ru_stime);
         const Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : -1,
                               file_text(base_ / "stdout"), file_text(base_ / "stderr")};
         EXPECT_TRUE(outcome.exit_code == 0 || outcome.exit_code == kRefused)
             << outcome.exit_code << outcome.err;
-        EXPECT_LT(time.count(), kSeconds);
+        EXPECT_LT(time, kSeconds);
         EXPECT_LT(used.ru_maxrss, kKilobytes);
         if (outcome.exit_code == kRefused) {
             EXPECT_EQ(outcome.err.rfind("nuvo: hostile.x3d: ", 0), 0u) << outcome.err;

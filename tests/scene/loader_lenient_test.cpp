@@ -94,6 +94,12 @@ TEST(LoaderLenient, AFieldThatCannotBeReadHasItsDefault) {
     EXPECT_EQ(load(bare("<PointLight radius='-1'/>" + kBall)).lights.at(0).radius, 100);
 }
 
+TEST(LoaderLenient, TruthValuesMayBePythons) {
+    EXPECT_FALSE(load(bare(shape("<Sphere solid='False'/>"))).objects.at(0).solid);
+    EXPECT_TRUE(load(bare(shape("<Rectangle2D solid='True'/>"))).objects.at(0).solid);
+    EXPECT_NE(refusal(bare(shape("<Sphere solid='False'/>"))), "");
+}
+
 TEST(LoaderLenient, ListsOfWrongLengthLoseTheirIncompleteEnd) {
     EXPECT_EQ(load(bare(shape("<TriangleSet><Coordinate point='0 0 0 1 0 0 0 1 0 5'/>"
                               "</TriangleSet>")))
