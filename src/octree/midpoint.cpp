@@ -59,16 +59,18 @@ double MidpointScore::operator()(const Point3& midpoint) const {
 
 namespace {
 
+// How far a plane stays from the edge that it belongs to where no margin says so, as a share of the
+// voxel's width: more than roundings of the published walk, which steps past faces, and little
+// area.
+constexpr double kClearance = 0x1p-10;
+
 // The best plane of one axis, or the centre where no edge offers one.
 double swept_plane(const SplitQuery& query, int axis) {
     const Bounds3& box = query.voxel.bounds;
     const Vector3 w = box.widths();
     const double across = w[(axis + 1) % 3] * w[(axis + 2) % 3];  // area of the cut
     const double around = w[(axis + 1) % 3] + w[(axis + 2) % 3];  // half its perimeter
-    // Also without a margin the plane must not touch a face: 4 units in the last place.
-    const double size = std::fmax(std::fabs(box.min[axis]), std::fabs(box.max[axis]));
-    const double ulp = std::nextafter(size, std::numeric_limits<double>::infinity()) - size;
-    const double clearance = 4 * std::fmax(query.margin, ulp);
+    const double clearance = query.margin > 0 ? 4 * query.margin : kClearance * w[axis];
     const AxisEdges edges(query.boxes, axis);
     // As items are placed: one that touches the plane lies on both sides.
     const auto count_left = [&](double plane) {
@@ -83,7 +85,9 @@ double swept_plane(const SplitQuery& query, int axis) {
     double best_plane = box.center()[axis];
     double best_cost = std::numeric_limits<double>::infinity();
     const auto consider = [&](double plane) {
-        if (!(box.min[axis] < plane && plane < box.max[axis])) return;
+        // Nearer to a face it would cut off nothing but a sliver.
+        if (!(plane - box.min[axis] >= 4 * clearance && box.max[axis] - plane >= 4 * clearance))
+            return;
         const double left_area = across + (plane - box.min[axis]) * around;
         const double right_area = across + (box.max[axis] - plane) * around;
         const double cost = left_area * static_cast<double>(count_left(plane)) +
