@@ -85,7 +85,8 @@ std::vector<Bounds3> random_boxes(std::size_t count) {
 /// An item is one step from leaf to leaf.
 template <typename Locator>
 void walk_step(benchmark::State& state) {
-    const Octree octree = build_octree(random_boxes(10'000));
+    Octree octree = build_octree(random_boxes(10'000));
+    octree.make_names();
     Random random;
     std::vector<Ray> rays;
     for (std::size_t i = 0; i < kPairs; ++i) rays.push_back(random.ray());

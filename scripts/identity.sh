@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # The fast profile against the exact one, byte by byte, through the program: every scene of
 # testfiles with every instruction set of the machine, both octrees and several numbers of threads,
-# and -compare against the serial tracer and brute force. One line a scene; exit status 1 where a
+# and -compare=brute against the serial tracer and brute force. One line a scene; exit status 1 where a
 # picture differs.
 set -euo pipefail
 source "$(dirname -- "${BASH_SOURCE[0]}")/setup.sh"
@@ -79,9 +79,9 @@ for scene in "${scenes[@]}"; do
             done
         done
     done
-    picture compare -compare --profile=fast || faults+=("-compare")
+    picture compare -compare=brute --profile=fast || faults+=("-compare=brute")
     if [ ${#faults[@]} -eq 0 ]; then
-        printf '%-44s %d pictures and -compare: 0 differing pixels\n' "${scene#"$nuvo_root"/}" \
+        printf '%-44s %d pictures and -compare=brute: 0 differing pixels\n' "${scene#"$nuvo_root"/}" \
             "$pictures"
     else
         printf '%-44s DIFFERS: %s\n' "${scene#"$nuvo_root"/}" "$(IFS=';'; echo "${faults[*]}")"

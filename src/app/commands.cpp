@@ -13,6 +13,7 @@
 #include "nuvo/image/file_writer.h"
 #include "passes.h"
 #include "scene_files.h"
+#include "text.h"
 
 namespace nuvo::app {
 namespace {
@@ -54,6 +55,34 @@ fs::path chosen_picture(const Options& options, const LoadedScene& loaded) {
     return options.out ? fs::path(*options.out) : picture_beside(loaded.path);
 }
 
+// One more picture, of which nothing but the pixels is told.
+image::Difference error_of(const Image& picture, const Scene& scene, const Options& options) {
+    Options plain = options;
+    plain.counters = false;
+    plain.json.reset();
+    Image exact;
+    run_pass(scene, plain, exact_profile(), 1, exact);
+    return image::compare(picture, exact);
+}
+
+// From a picture of a 16th of the width and height.
+std::string brute_force_forecast(const Scene& scene, const Options& options) {
+    constexpr int kShrink = 16;
+    Options small = options;
+    small.resolution = {std::max(1, options.resolution.width / kShrink),
+                        std::max(1, options.resolution.height / kShrink)};
+    Image trial;
+    const Pass pass = run_brute_force(scene, small, trial);
+    const auto pixels = [](Resolution r) {
+        return static_cast<double>(r.width) * static_cast<double>(r.height);
+    };
+    const double seconds =
+        pass.trace_seconds.front() * pixels(options.resolution) / pixels(small.resolution);
+    const SceneCounts counts = count(scene);
+    return format("%-10s every ray against all %zu triangles and spheres: about %.3g s\n",
+                  "brute force", counts.triangles + counts.spheres, seconds);
+}
+
 bool is_further_apart(const image::Difference& a, const image::Difference& b) {
     return std::tie(a.max_difference, a.differing_pixels) >
            std::tie(b.max_difference, b.differing_pixels);
@@ -71,6 +100,7 @@ ExitCode render_command(const Options& options) {
     Image picture;
     report.passes.push_back(
         run_pass(loaded.scene, options, options.profile, options.repetitions, picture));
+    if (options.error) report.error = error_of(picture, loaded.scene, options);
     const StageStopwatch write;
     image::write_bmp(picture_path, picture);
     report.write_seconds = write.seconds();
@@ -99,7 +129,10 @@ ExitCode compare_command(const Options& options) {
             run_pass(loaded.scene, options, exact_profile(), 1, pictures.emplace_back()));
         report.passes.back().name = "serial";
     }
-    report.passes.push_back(run_brute_force(loaded.scene, options, pictures.emplace_back()));
+    if (options.compare_brute_force) {
+        if (!options.quiet) std::cout << brute_force_forecast(loaded.scene, options) << std::flush;
+        report.passes.push_back(run_brute_force(loaded.scene, options, pictures.emplace_back()));
+    }
 
     std::size_t far_first = 0, far_second = 1;
     image::Difference furthest;

@@ -61,29 +61,27 @@ void apply_repetitions(Options& options, const std::string& value) {
                       "must be a whole number 1 to " + limit + " (limit " + limit + ")");
 }
 
+void apply_type(Options& options, const std::string& value) {
+    std::string name = value;  // in any letter case
+    for (char& c : name)
+        if ('A' <= c && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    options.profile.type = parse_choice(kOctreeTypes, name);
+    options.type_given = true;
+}
+
 void apply_profile(Options& options, const std::string& value) {
     const OctreeType type = options.profile.type;
     options.profile = parse_choice(kProfiles, value)();
     // --type comes earlier in the table and belongs to the user whatever the profile.
     if (options.type_given) options.profile.type = type;
     options.profile_name = value;
+    if (value == "thesis") options.defaults = &x3d::thesis_defaults;
 }
 
-void apply_costs(Options& options, const std::string& value) {
-    const std::string demand = "must be thesis, thesis:K with a weight K > 0, or calibrated";
-    const std::size_t colon = value.find(':');
-    if (colon != std::string::npos) {
-        if (value.compare(0, colon, "thesis") != 0) throw UsageError(demand);
-        options.profile.thesis_weight = parse_number(value.substr(colon + 1), 0, false, demand);
-        options.profile.costs = CostChoice::kThesis;
-        return;
-    }
-    for (const auto& choice : kCosts) {
-        if (choice.name != value) continue;
-        options.profile.costs = choice.value;
-        return;
-    }
-    throw UsageError(demand);
+void apply_compare(Options& options, const std::string& value) {
+    if (!value.empty() && value != "brute") throw UsageError("must be brute, or nothing");
+    options.compare = true;
+    options.compare_brute_force = !value.empty();
 }
 
 void apply_max_objects(Options& options, const std::string& value) {
@@ -129,6 +127,11 @@ std::vector<Flag> scene_flags() {
         {"viewpoint", "--viewpoint", "NAME|N", "",
          "the camera: a Viewpoint's DEF or description, or its number from 1; else the first",
          [](Options& o, const std::string& v) { o.viewpoint = non_empty(v, "a name or number"); }},
+        {"defaults", "--defaults", joined_names(kDefaults), "by profile",
+         "what stands in for missing fields: the standard's, or the published program's, which "
+         "also "
+         "ignores light radii and keeps coincident shapes",
+         [](Options& o, const std::string& v) { o.defaults = parse_choice(kDefaults, v); }},
         {"strict", "--strict", "", "",
          "refuse a scene of which something would be left out because it cannot be read",
          [](Options& o, const std::string&) { o.strict = true; }},
@@ -183,16 +186,15 @@ std::vector<Flag> thesis_flags() {
         {"type", "--type", joined_names(kOctreeTypes), "uniform",
          "the octree; the fast profile's default is the one that was measured faster: " +
              std::string(name_of(kOctreeTypes, fast_profile().type)),
-         [](Options& o, const std::string& v) {
-             o.profile.type = parse_choice(kOctreeTypes, v);
-             o.type_given = true;
-         }},
+         apply_type},
         {"showoctree", "-showoctree", "", "", "print the octree as text first (extremely verbose)",
          [](Options& o, const std::string&) { o.show_octree = true; }},
-        {"compare", "-compare", "", "",
-         "render once each with the uniform octree, the non-uniform one and by brute force (tiles: "
-         "and serially); print how far the pictures are apart and write the difference picture",
-         [](Options& o, const std::string&) { o.compare = true; }},
+        {"compare", "-compare", "[=brute]", "",
+         "render once each with the uniform octree and the non-uniform one (tiles: and the exact "
+         "profile's), with =brute also by brute force, whose cost is said beforehand; print how "
+         "far "
+         "the pictures are apart and write the difference picture",
+         apply_compare},
         {"help", "-h, --help", "", "", "print this list",
          [](Options& o, const std::string&) { o.help = true; }},
     };
@@ -217,13 +219,14 @@ std::vector<Flag> profile_flags() {
          }},
         {"isa", "--isa", joined_names(kInstructionSets), "",
          "instruction set of the tile tracer; none given: the best of the machine", apply_isa},
-        {"midpoint", "--midpoint", joined_names(kMidpoints), "mlsl-sbplx",
+        {"midpoint", "--midpoint", joined_names(kMidpoints), "by profile",
          "where a non-uniform voxel is cut",
          [](Options& o, const std::string& v) {
              o.profile.midpoint = parse_choice(kMidpoints, v);
          }},
-        {"costs", "--costs", "thesis[:K]|calibrated", "by profile",
-         "when a cut pays; K: what a mesh of 8 triangles counts as (8)", apply_costs},
+        {"costs", "--costs", joined_names(kCosts), "by profile",
+         "when a cut pays: by the published costs and rules, or by measured ones",
+         [](Options& o, const std::string& v) { o.profile.costs = parse_choice(kCosts, v); }},
         {"max-objects", "--max-objects", "N", "",
          "cut until a voxel holds at most N, whatever it costs", apply_max_objects},
         {"leaves", "--leaves", joined_names(kLeafContents), "by profile",
@@ -267,6 +270,10 @@ std::vector<Flag> output_flags() {
         {"headlight", "--headlight", joined_names(kHeadlights), "auto",
          "a light at the camera; auto: as the file says, or where it has no light",
          [](Options& o, const std::string& v) { o.headlight = parse_choice(kHeadlights, v); }},
+        {"error", "--error", "", "",
+         "render once more with the exact profile, untimed, and report how far the picture is from "
+         "that one",
+         [](Options& o, const std::string&) { o.error = true; }},
         {"counters", "--counters", "", "",
          "count intersection tests and voxel searches in an extra pass that is not timed (--json "
          "does, too); of the tile tracer: rays, and the time of each stage",

@@ -141,12 +141,18 @@ void check_combinations(const Options& options, const std::map<std::string, std:
     if (options.compare && is_given("type"))
         throw UsageError("-compare renders every type: leave --type out");
     if (options.compare && options.rays) throw UsageError("-compare and --rays cannot be combined");
+    if (options.error && (options.compare || options.rays || options.describe))
+        throw UsageError("--error is about one picture: leave " +
+                         std::string(options.compare ? "-compare"
+                                     : options.rays  ? "--rays"
+                                                     : "--describe") +
+                         " out");
     if (options.show_octree && options.rays)
         throw UsageError("-showoctree and --rays cannot be combined");
     if (options.study)
         for (const char* other :
              {"compare", "rays", "showoctree", "profile", "costs", "leaves", "walk", "step",
-              "precision", "bias", "tracer", "threads", "isa", "out", "json", "counters"})
+              "precision", "bias", "tracer", "threads", "isa", "out", "json", "counters", "error"})
             if (is_given(other))
                 throw UsageError(
                     std::string("--study chooses the answers and the outputs: leave --") + other +

@@ -28,7 +28,6 @@ void write_profile(JsonWriter& json, const Options& options) {
     } else {
         json.value(name_of(kCosts, profile.costs));
     }
-    json.member("thesis_weight", profile.thesis_weight);
     json.member("max_objects", profile.max_objects);
     json.member("leaves", name_of(kLeafContents, profile.leaves));
     json.key("walk");
@@ -40,6 +39,7 @@ void write_profile(JsonWriter& json, const Options& options) {
     number_or_exact("step", profile.step);
     json.member("precision", name_of(kPrecisions, profile.precision));
     number_or_exact("bias", profile.bias);
+    json.member("defaults", name_of(kDefaults, options.defaults));
     json.member("headlight", name_of(kHeadlights, options.headlight));
     json.end_object();
 }

@@ -114,15 +114,16 @@ std::string average_line(const Pass& pass) {
     return line;
 }
 
+std::string difference_text(const image::Difference& d) {
+    if (d.equal()) return "0 differing pixels, maximum difference 0, RMS 0, PSNR inf dB\n";
+    return format("%s, maximum difference %d at pixel %d,%d, RMS %.6g, PSNR %.2f dB\n",
+                  counted(d.differing_pixels, "differing pixel").c_str(), d.max_difference, d.x,
+                  d.y, d.rms, d.psnr_db);
+}
+
 std::string pair_line(const Pair& pair) {
-    const image::Difference& d = pair.difference;
-    const std::string names = pair.first + " / " + pair.second;
-    if (d.equal())
-        return format("%-25s 0 differing pixels, maximum difference 0, RMS 0, PSNR inf dB\n",
-                      names.c_str());
-    return format("%-25s %s, maximum difference %d at pixel %d,%d, RMS %.6g, PSNR %.2f dB\n",
-                  names.c_str(), counted(d.differing_pixels, "differing pixel").c_str(),
-                  d.max_difference, d.x, d.y, d.rms, d.psnr_db);
+    return format("%-25s ", (pair.first + " / " + pair.second).c_str()) +
+           difference_text(pair.difference);
 }
 
 }  // namespace
@@ -149,8 +150,12 @@ SceneCounts count(const Scene& scene) {
 }
 
 TreeFigures figures(const Octree& octree) {
-    return {octree.depth(),           octree.leaf_count(),   octree.nodes().size(),
-            octree.reference_count(), octree.memory_bytes(), octree.smallest_width(),
+    return {octree.depth_tried().value_or(octree.depth()),
+            octree.leaf_count(),
+            octree.nodes().size(),
+            octree.reference_count(),
+            octree.memory_bytes(),
+            octree.smallest_width(),
             octree.out_of_budget()};
 }
 
@@ -179,13 +184,14 @@ std::string profile_flags_text(const Options& options) {
         text += format(" --max-objects=%zu", *profile.max_objects);
     } else {
         text += " --costs=" + std::string(name_of(kCosts, profile.costs));
-        if (profile.costs == CostChoice::kThesis) text += format(":%g", profile.thesis_weight);
     }
     text += " --leaves=" + std::string(name_of(kLeafContents, profile.leaves));
     text += " --walk=" + std::string(name_of(kWalks, profile.walk));
     text += profile.step ? format(" --step=%g", *profile.step) : " --step=exact";
     text += " --precision=" + std::string(name_of(kPrecisions, profile.precision));
     text += profile.bias ? format(" --bias=%g", *profile.bias) : " --bias=exact";
+    if (options.defaults != &x3d::standard_defaults)
+        text += " --defaults=" + std::string(name_of(kDefaults, options.defaults));
     return text;
 }
 
@@ -211,6 +217,9 @@ std::string report_text(const Options& options, const Report& report) {
         if (!options.compare && !report.rays) text += average_line(pass);
     }
     for (const Pair& pair : report.pairs) text += pair_line(pair);
+    if (report.error)
+        text += format("%-10s from the exact profile's picture: ", "error") +
+                difference_text(*report.error);
     if (report.rays)
         text += format("%-10s %zu, %zu of them hit\n", "rays", *report.rays, *report.hits);
     if (!report.picture.empty())

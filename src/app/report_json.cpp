@@ -103,20 +103,23 @@ void write_passes(JsonWriter& json, const std::vector<Pass>& passes) {
     json.end_array();
 }
 
+void write_difference(JsonWriter& json, const image::Difference& d) {
+    json.member("differing_pixels", d.differing_pixels);
+    json.member("max_difference", d.max_difference);
+    json.member("x", d.x);
+    json.member("y", d.y);
+    json.member("rms", d.rms);
+    json.member("psnr_db", d.psnr_db);  // null for equal pictures
+}
+
 void write_pairs(JsonWriter& json, const std::vector<Pair>& pairs) {
     json.key("pairs");
     json.begin_array();
     for (const Pair& pair : pairs) {
-        const image::Difference& d = pair.difference;
         json.begin_object();
         json.member("first", pair.first);
         json.member("second", pair.second);
-        json.member("differing_pixels", d.differing_pixels);
-        json.member("max_difference", d.max_difference);
-        json.member("x", d.x);
-        json.member("y", d.y);
-        json.member("rms", d.rms);
-        json.member("psnr_db", d.psnr_db);  // null for equal pictures
+        write_difference(json, pair.difference);
         json.end_object();
     }
     json.end_array();
@@ -145,6 +148,12 @@ std::string report_json(const Options& options, const Report& report) {
     }
     json.member("write_seconds", report.write_seconds);
     if (!report.pairs.empty()) write_pairs(json, report.pairs);
+    if (report.error) {
+        json.key("error");
+        json.begin_object();
+        write_difference(json, *report.error);
+        json.end_object();
+    }
     if (report.rays) {
         json.member("rays", *report.rays);
         json.member("hits", report.hits.value_or(0));

@@ -31,7 +31,8 @@ LoadedScene load(const Options& options) {
     loaded.path = find_scene(options.file);
     const StageStopwatch watch;
     loaded.scene = x3d::read_file(
-        loaded.path, {options.limits, options.headlight, options.viewpoint, options.strict});
+        loaded.path,
+        {options.limits, options.headlight, options.viewpoint, options.strict, options.defaults()});
     loaded.parse_seconds = watch.seconds();
     for (const std::string& warning : loaded.scene.warnings)
         std::cerr << "nuvo: warning: " + one_line(loaded.path.string() + ": " + warning) + '\n';

@@ -45,6 +45,7 @@ constexpr Combination kCombinations[] = {
     {"thesis", "--walk=descent"},
     {"thesis", "--step=1"},
     {"thesis", "--step=0.1"},
+    {"thesis", "--step=0.01"},
     {"thesis", "--step=0.001"},
     {"thesis", "--step=0.0001"},
     {"thesis", "--step=0.00001"},

@@ -1,13 +1,13 @@
 #include "nuvo/octree/build.h"
 
 #include "best_first.h"
-#include "depth_first.h"
+#include "published.h"
 
 namespace nuvo {
 
 Octree build_octree(std::span<const Bounds3> boxes, const BuildOptions& options) {
-    if (std::holds_alternative<CostModel>(options.worth))
-        return DepthFirstBuilder(boxes, options).build();
+    if (const auto* costs = std::get_if<ThesisCosts>(&options.worth))
+        return PublishedBuilder(boxes, options, *costs).build();
     return BestFirstBuilder(boxes, options).build();
 }
 

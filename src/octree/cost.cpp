@@ -9,8 +9,17 @@ double sah(const SahTotals& totals, double root_area, const SahCosts& costs) {
 }
 
 SahCosts ThesisCosts::operator()(std::size_t leaves) const {
-    const double voxels = static_cast<double>(leaves);
-    return {voxels * voxels, shapes / voxels, lights * shapes * shapes};
+    const auto s = static_cast<float>(shapes);
+    return {static_cast<float>(leaves * leaves), static_cast<float>(objects / leaves),
+            static_cast<float>(lights) * s * s};
+}
+
+float ThesisCosts::of_tree(const SahTotals& totals, double root_area) const {
+    const SahCosts costs = (*this)(totals.leaves);
+    if (totals.leaves == 1)
+        return static_cast<float>(costs.leaf) +
+               static_cast<float>(costs.object) * static_cast<float>(objects);
+    return static_cast<float>(sah(totals, root_area, costs));
 }
 
 }  // namespace nuvo

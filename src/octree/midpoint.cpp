@@ -46,15 +46,25 @@ MidpointScore::MidpointScore(const SplitQuery& query)
       widths_(query.voxel.bounds.widths()),
       edges_{{query.boxes, 0}, {query.boxes, 1}, {query.boxes, 2}} {}
 
-double MidpointScore::operator()(const Point3& midpoint) const {
+double MidpointScore::product(const Point3& midpoint) const {
     double score = 1;
     for (int axis = 0; axis < 3; ++axis) {
-        const double plane = midpoint[axis];
-        const double below = (plane - voxel_.min[axis]) / widths_[axis];
-        score *= below * static_cast<double>(edges_[axis].left_of(plane)) +
-                 (1 - below) * static_cast<double>(edges_[axis].right_of(plane));
+        const double below = (midpoint[axis] - voxel_.min[axis]) / widths_[axis];
+        score *= of_axis(axis, midpoint[axis], below, 1);
     }
     return score;
+}
+
+double MidpointScore::sum(const Point3& midpoint) const {
+    double score = 0;
+    for (int axis = 0; axis < 3; ++axis)
+        score += of_axis(axis, midpoint[axis], midpoint[axis] - voxel_.min[axis], widths_[axis]);
+    return score;
+}
+
+double MidpointScore::of_axis(int axis, double plane, double below, double whole) const {
+    return below * static_cast<double>(edges_[axis].left_of(plane)) +
+           (whole - below) * static_cast<double>(edges_[axis].right_of(plane));
 }
 
 namespace {

@@ -13,14 +13,11 @@ constexpr float kMaxLoadFactor = 0.5F;
 
 }  // namespace
 
-Octree::Octree(std::vector<Node> nodes, std::vector<ItemId> items)
-    : nodes_(std::move(nodes)), items_(std::move(items)) {
-    names_.max_load_factor(kMaxLoadFactor);
-    names_.reserve(nodes_.size());
+Octree::Octree(std::vector<Node> nodes, std::vector<ItemId> items, std::optional<int> depth_tried)
+    : nodes_(std::move(nodes)), items_(std::move(items)), depth_tried_(depth_tried) {
     smallest_width_ = std::numeric_limits<double>::infinity();
     for (NodeIndex i = 0; i < nodes_.size(); ++i) {
         const Node& node = nodes_[i];
-        names_.emplace(node.label, i);
         depth_ = std::max(depth_, label_digits(node.label) + 1);
         if (!node.is_leaf()) continue;
         const Vector3 w = node.voxel.bounds.widths();
@@ -60,9 +57,17 @@ Point3 Octree::point_next_voxel(const Ray& ray) const {
 }
 
 std::optional<NodeIndex> Octree::find_name(Label label) const {
-    const auto entry = names_.find(label);
-    if (entry == names_.end()) return std::nullopt;
-    return entry->second;
+    if (label == 0) return 0;
+    const std::optional<NodeIndex> parent = find_name(parent_label(label));
+    const int digit = static_cast<int>(label % 10);
+    if (!parent || nodes_[*parent].is_leaf() || digit < 1 || digit > 8) return std::nullopt;
+    return nodes_[*parent].child(digit);
+}
+
+void Octree::make_names() {
+    names_.max_load_factor(kMaxLoadFactor);
+    names_.reserve(nodes_.size());
+    for (NodeIndex i = 0; i < nodes_.size(); ++i) names_.emplace(nodes_[i].label, i);
 }
 
 void print(std::ostream& out, const Octree& octree) {

@@ -21,6 +21,17 @@ bool empty_slab(const Bounds3& box) {
     return box.min.x == box.max.x || box.min.y == box.max.y || box.min.z == box.max.z;
 }
 
+// Strictly beyond the planes of the octant that meet in the midpoint.
+bool reaches(const Bounds3& box, const Point3& midpoint, int digit) {
+    const int bits = octant_bits(digit);
+    for (int axis = 0; axis < 3; ++axis) {
+        const bool upper = (bits >> axis & 1) != 0;
+        if (!(upper ? box.max[axis] > midpoint[axis] : box.min[axis] < midpoint[axis]))
+            return false;
+    }
+    return true;
+}
+
 }  // namespace
 
 std::size_t TrialCut::references() const {
@@ -60,8 +71,7 @@ std::optional<TrialCut> Cutter::cut(const Voxel& voxel, const Items& items) {
     if (!midpoint) return std::nullopt;
     TrialCut trial{{voxel.bounds, *midpoint}, {}};
     for (int digit = 1; digit <= 8; ++digit)
-        distribute(trial.voxel.octant(digit), items,
-                   trial.octants[static_cast<std::size_t>(digit - 1)]);
+        distribute(trial.voxel, digit, items, trial.octants[static_cast<std::size_t>(digit - 1)]);
     return trial;
 }
 
@@ -81,12 +91,15 @@ std::optional<Point3> Cutter::choose_midpoint(const Voxel& voxel, const Items& i
     return midpoint;
 }
 
-void Cutter::distribute(const Bounds3& octant, const Items& items, Items& out) const {
+void Cutter::distribute(const Voxel& voxel, int digit, const Items& items, Items& out) const {
+    const Bounds3 octant = voxel.octant(digit);
     if (options_.margin > 0 && empty_slab(octant)) return;
     // The overlap test sees the voxel grown by the margin; the boxes are grown already.
     const Bounds3 grown = octant.inflated(options_.margin);
     for (ItemId id : items)
-        if (boxes_[id].overlaps(octant) && (!options_.overlaps || options_.overlaps(id, grown)))
+        if ((options_.strict_placement ? reaches(boxes_[id], voxel.midpoint, digit)
+                                       : boxes_[id].overlaps(octant)) &&
+            (!options_.overlaps || options_.overlaps(id, grown)))
             out.push_back(id);
 }
 

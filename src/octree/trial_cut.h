@@ -36,7 +36,7 @@ class Cutter {
 
   private:
     std::optional<Point3> choose_midpoint(const Voxel& voxel, const Items& items);
-    void distribute(const Bounds3& octant, const Items& items, Items& out) const;
+    void distribute(const Voxel& voxel, int digit, const Items& items, Items& out) const;
 
     const BuildOptions& options_;
     std::vector<Bounds3> boxes_;  // inflated

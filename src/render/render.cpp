@@ -1,5 +1,7 @@
 #include "nuvo/render/render.h"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <type_traits>
 
@@ -14,24 +16,64 @@
 namespace nuvo {
 namespace {
 
-// The cap of the published program, its "smallest voxel": it counts levels, the root's included.
-constexpr int kThesisMaxDepth = 9;
 // The octree may hold so many references: see docs/performance.md, "The octree's budget".
 constexpr std::size_t kReferencesPerItem = 4;
 constexpr std::size_t kReferencesOfSmallScenes = 1 << 20;
-// Triangles of the octahedra by which `thesis_weight` is stated.
-constexpr double kTrianglesOfReference = 8;
 
-// The thesis' numShapes: spheres count 1, triangles thesis_weight / 8.
-double weighted_shapes(const Scene& scene, double thesis_weight) {
-    double shapes = 0;
+ThesisCosts thesis_costs(const Scene& scene, const Primitives& primitives) {
+    double shapes = kThesisShapesBase;
     for (const Object& object : scene.objects) {
         const auto* mesh = std::get_if<TriangleMesh>(&object.shape);
-        shapes += mesh ? static_cast<double>(mesh->triangles.size()) * thesis_weight /
-                             kTrianglesOfReference
-                       : 1;
+        shapes += mesh ? kThesisShapesPerTriangle * static_cast<double>(mesh->triangles.size())
+                       : kThesisShapesPerSphere;
     }
-    return shapes;
+    return {shapes, static_cast<double>(scene.lights.size()), primitives.item_count()};
+}
+
+// Rounded to float. g++ 12 leaves the rounding out where several numbers go to float and back side
+// by side, unless something stands between.
+Point3 in_float(const Point3& p) {
+    const volatile float x = static_cast<float>(p.x);
+    const volatile float y = static_cast<float>(p.y);
+    const volatile float z = static_cast<float>(p.z);
+    return {x, y, z};
+}
+
+// The published program's box of a mesh: around the mean of its vertices, as far to either side as
+// the furthest of them.
+Bounds3 box_around_mean(const TriangleMesh& mesh) {
+    Vec3<float> sum;
+    for (const Point3& p : mesh.positions) sum += Vec3<float>(p);
+    const Vec3<float> mean = sum / static_cast<float>(mesh.positions.size());
+    Vec3<float> reach;
+    for (const Point3& p : mesh.positions)
+        for (int axis = 0; axis < 3; ++axis)
+            reach[axis] =
+                std::max(reach[axis], std::fabs(static_cast<float>(p[axis]) - mean[axis]));
+    return {Point3(mean - reach), Point3(mean + reach)};
+}
+
+// The boxes that the published program places by, in its arithmetic.
+std::vector<Bounds3> float_boxes(const Scene& scene, const Primitives& primitives,
+                                 LeafContent leaves) {
+    std::vector<Bounds3> boxes;
+    for (std::size_t item = 0; item < primitives.item_count(); ++item) {
+        const PrimitiveSource& source = primitives.sources[primitives.of_item(item).first];
+        const auto* mesh = std::get_if<TriangleMesh>(&scene.objects[source.object].shape);
+        const Bounds3& own = primitives.item_boxes[item];
+        boxes.push_back(mesh && leaves == LeafContent::kShapes
+                            ? box_around_mean(*mesh)
+                            : Bounds3{in_float(own.min), in_float(own.max)});
+    }
+    return boxes;
+}
+
+MidpointStrategy rounded_to_float(MidpointStrategy strategy) {
+    return [strategy = std::move(strategy)](const SplitQuery& query) {
+        std::optional<Point3> midpoint = strategy(query);
+        if (midpoint) *midpoint = in_float(*midpoint);
+        return midpoint;
+    };
 }
 
 MidpointStrategy midpoint_strategy(const Profile& profile) {
@@ -43,6 +85,8 @@ MidpointStrategy midpoint_strategy(const Profile& profile) {
             return sweep_midpoint;
         case MidpointChoice::kMlslSbplx:
             return mlsl_sbplx_midpoint;
+        case MidpointChoice::kPublished:
+            return published_midpoint;
     }
     return spatial_midpoint;
 }
@@ -81,7 +125,9 @@ auto with_search(const Kernel& kernel, const Primitives& primitives, const Octre
                                                               *profile.step, counter));
         return use(ExactSearch<Kernel, Locator, Counter>(kernel, primitives, octree, counter));
     };
-    if (profile.walk == WalkChoice::kHash) return with_locator(HashLocator{});
+    // A tree that was built for the other walk has no names.
+    if (profile.walk == WalkChoice::kHash && !octree.names().empty())
+        return with_locator(HashLocator{});
     return with_locator(DescentLocator{});
 }
 
@@ -126,10 +172,16 @@ struct FactsObserver {
 Octree build_tree(const Scene& scene, const Primitives& primitives, const Profile& profile) {
     BuildOptions options;
     options.midpoint = midpoint_strategy(profile);
-    if (profile.costs == CostChoice::kThesis) {
-        options.worth = CostModel(ThesisCosts{weighted_shapes(scene, profile.thesis_weight),
-                                              static_cast<double>(scene.lights.size())});
-        options.max_depth = kThesisMaxDepth;
+    std::span<const Bounds3> boxes(primitives.item_boxes);
+    std::vector<Bounds3> published_boxes;
+    if (profile.costs == CostChoice::kThesis && !profile.max_objects) {
+        options.worth = thesis_costs(scene, primitives);
+        if (profile.step) {
+            options.strict_placement = true;
+            options.midpoint = rounded_to_float(std::move(options.midpoint));
+            published_boxes = float_boxes(scene, primitives, profile.leaves);
+            boxes = published_boxes;
+        }
     } else {
         options.midpoint = shrinking(options.midpoint);
         options.fallback = shrinking(spatial_midpoint);
@@ -146,7 +198,9 @@ Octree build_tree(const Scene& scene, const Primitives& primitives, const Profil
         for (const Bounds3& box : primitives.item_boxes) all = all.extended(box);
         if (!all.empty()) options.margin = path_error_bound(all);
     }
-    return build_octree(primitives.item_boxes, options);
+    Octree octree = build_octree(boxes, options);
+    if (profile.walk == WalkChoice::kHash) octree.make_names();
+    return octree;
 }
 
 Image render(const Scene& scene, const Primitives& primitives, const Octree& octree,

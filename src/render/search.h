@@ -214,7 +214,7 @@ class NudgedSearch {
     std::optional<typename Kernel::Hit> closest(const typename Kernel::PreparedRay& ray) const {
         std::optional<typename Kernel::Hit> best;
         const RayT<Scalar> line(kernel_.nudged_ray(ray));
-        walk(line, [&](const Node& leaf) {
+        walk(line, WalkStart::kRoot, [&](const Node& leaf) {
             for (ItemId item : octree_.contents(leaf)) {
                 std::optional<typename Kernel::Hit> nearest;
                 kernel_.closest(ray, of_item(item), nearest);
@@ -231,7 +231,7 @@ class NudgedSearch {
     bool occluded(const typename Kernel::Shadow& shadow) const {
         Scalar first = Kernel::kInfinity;
         const RayT<Scalar> line(kernel_.nudged_ray(shadow.ray));
-        walk(line, [&](const Node& leaf) {
+        walk(line, WalkStart::kLeaf, [&](const Node& leaf) {
             for (ItemId item : octree_.contents(leaf)) {
                 const Scalar nearest = kernel_.shadow_t(shadow, of_item(item));
                 if (nearest < first && inside(leaf, line, nearest)) first = nearest;
@@ -242,13 +242,13 @@ class NudgedSearch {
     }
 
   private:
-    // Slack of the bounds check, in scene units: the thesis' epsilon. [5.5]
-    static constexpr Scalar kTolerance = static_cast<Scalar>(1e-6);
+    // Slack of the bounds check, in scene units: the program's epsilon. [5.5]
+    static constexpr Scalar kTolerance = static_cast<Scalar>(1e-5);
 
     template <typename Visit>
-    void walk(const RayT<Scalar>& line, Visit&& visit) const {
+    void walk(const RayT<Scalar>& line, WalkStart start, Visit&& visit) const {
         walk_(
-            line, [&] { counter_.count_search(); },
+            line, start, [&] { counter_.count_search(); },
             [&](const Node& leaf) {
                 counter_.count_tests(leaf.item_count);
                 return visit(leaf);

@@ -26,12 +26,13 @@ bool is_back(const Element& child) {
     return field != nullptr && *field == "backMaterial";
 }
 
-void read_phong(const Fields& fields, Material& material) {
+void read_phong(const Fields& fields, const Defaults& defaults, Material& material) {
     material.diffuse_color = fields.clamped_vector("diffuseColor", material.diffuse_color, kUnit);
     material.ambient_intensity =
         fields.clamped_number("ambientIntensity", material.ambient_intensity, kUnit);
+    if (!defaults.has_material_ambient) material.ambient_intensity = 1;
     material.specular_color =
-        fields.clamped_vector("specularColor", material.specular_color, kUnit);
+        fields.clamped_vector("specularColor", defaults.specular_color, kUnit);
     material.shininess = fields.clamped_number("shininess", material.shininess, kUnit);
     material.emissive_color =
         fields.clamped_vector("emissiveColor", material.emissive_color, kUnit);
@@ -72,7 +73,7 @@ std::optional<std::uint32_t> MaterialTable::read(const Element& element) {
         material.diffuse_color = fields.clamped_vector("baseColor", {1, 1, 1}, kUnit);
         material.emissive_color = fields.clamped_vector("emissiveColor", {0, 0, 0}, kUnit);
     } else {
-        read_phong(fields, material);
+        read_phong(fields, defaults_, material);
     }
     for (const Element& child : element.children)
         if (!is_silent(child.kind())) warn_not_drawn(child, messages_);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "messages.h"
+#include "nuvo/scene/defaults.h"
 #include "nuvo/scene/material.h"
 
 namespace nuvo::x3d {
@@ -13,7 +14,8 @@ namespace nuvo::x3d {
 /// The scene's materials, one for each Material node however often it is USEd.
 class MaterialTable {
   public:
-    explicit MaterialTable(Messages& messages) : messages_(messages) {}
+    MaterialTable(Messages& messages, const Defaults& defaults)
+        : messages_(messages), defaults_(defaults) {}
 
     /// The index of the material that an Appearance gives (null: no Appearance, so unlit white);
     /// nothing when it is wholly transparent.
@@ -32,6 +34,7 @@ class MaterialTable {
     std::optional<std::uint32_t> read(const Element& material);
 
     Messages& messages_;
+    const Defaults& defaults_;
     std::vector<Material> materials_;
     // By node; the null node stands for the unlit white.
     std::unordered_map<const Element*, std::optional<std::uint32_t>> known_;

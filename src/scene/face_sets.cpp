@@ -159,11 +159,13 @@ void read_triangle_set(MeshSource& source) {
         read_counted_runs(source, strip);
     else
         read_tuples(source, indexed, kind.ends_with("QuadSet") ? 4 : 3);
-    const bool normal_per_vertex = fields.boolean("normalPerVertex", true);
-    read_normals(source, {normal_per_vertex, {}});
-    // The corners of a TriangleSet or QuadSet are points of their own: nothing is shared.
-    if (source.polygons.normals.values.empty() && normal_per_vertex && (runs || indexed))
-        smooth(source, std::numbers::pi);
+    if (source.smooths_unasked || fields.has("normalPerVertex")) {
+        const bool normal_per_vertex = fields.boolean("normalPerVertex", true);
+        read_normals(source, {normal_per_vertex, {}});
+        // The corners of a TriangleSet or QuadSet are points of their own: nothing is shared.
+        if (source.polygons.normals.values.empty() && normal_per_vertex && (runs || indexed))
+            smooth(source, std::numbers::pi);
+    }
     if (!fields.boolean("colorPerVertex", true) && source.color != nullptr)
         fields.warn("colorPerVertex", "of false taken as true, as for all sets of triangles");
     read_colors(source, {});

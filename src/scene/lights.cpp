@@ -1,5 +1,6 @@
 #include "lights.h"
 
+#include <limits>
 #include <numbers>
 
 namespace nuvo::x3d {
@@ -25,7 +26,8 @@ Vector3 read_direction(const Fields& fields, const Placement& placement) {
     return direction;
 }
 
-void read_reach(const Fields& fields, const Placement& placement, Light& light) {
+void read_reach(const Fields& fields, const Placement& placement, const Defaults& defaults,
+                Light& light) {
     light.location = placement.to_world.point(fields.vector("location", {}));
     light.attenuation = fields.clamped_vector("attenuation", {1, 0, 0}, kNotNegative);
     double radius = fields.number("radius", light.radius);
@@ -33,33 +35,38 @@ void read_reach(const Fields& fields, const Placement& placement, Light& light) 
         fields.reject("radius", "is negative");
         radius = light.radius;
     }
-    light.radius = radius * placement.length_scale;
+    light.radius = defaults.has_light_radius ? radius * placement.length_scale
+                                             : std::numeric_limits<double>::max();
     if (placement.length_scale > 0)
         light.units_per_world = 1 / placement.length_scale;
     else
         fields.warn("radius", "shrunk to zero by a singular transform");
 }
 
-void read_cone(const Fields& fields, Version version, Light& light) {
+void read_cone(const Fields& fields, Version version, const Defaults& defaults, Light& light) {
     const double beam_width = version < Version{4, 0} ? 0.785398 : 0.589049;
-    light.beam_width = fields.clamped_number("beamWidth", beam_width, kQuarterTurn);
-    light.cut_off_angle = fields.clamped_number("cutOffAngle", 1.570796, kQuarterTurn);
+    light.beam_width = fields.clamped_number(
+        "beamWidth", defaults.beam_width_rad.value_or(beam_width), kQuarterTurn);
+    light.cut_off_angle = fields.clamped_number(
+        "cutOffAngle", defaults.cut_off_angle_rad.value_or(1.570796), kQuarterTurn);
 }
 
 }  // namespace
 
 std::optional<PlacedLight> read_light(Light::Kind kind, const Fields& fields,
-                                      const Placement& placement, Version version) {
+                                      const Placement& placement, Version version,
+                                      const Defaults& defaults) {
     const bool on = fields.boolean("on", true);
     PlacedLight placed;
     Light& light = placed.light;
     light.kind = kind;
     light.color = fields.clamped_vector("color", {1, 1, 1}, kUnit);
     light.intensity = fields.clamped_number("intensity", 1, intensity_range(version));
-    light.ambient_intensity = fields.clamped_number("ambientIntensity", 0, kUnit);
+    light.ambient_intensity =
+        fields.clamped_number("ambientIntensity", defaults.light_ambient_intensity, kUnit);
     if (kind != Light::Kind::kPoint) light.direction = read_direction(fields, placement);
-    if (kind != Light::Kind::kDirectional) read_reach(fields, placement, light);
-    if (kind == Light::Kind::kSpot) read_cone(fields, version, light);
+    if (kind != Light::Kind::kDirectional) read_reach(fields, placement, defaults, light);
+    if (kind == Light::Kind::kSpot) read_cone(fields, version, defaults, light);
     placed.scoped = is_scoped(kind, fields, version);
     if (!on) return std::nullopt;
     return placed;

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "fields.h"
+#include "nuvo/scene/defaults.h"
 #include "nuvo/scene/light.h"
 #include "placement.h"
 #include "version.h"
@@ -17,6 +18,7 @@ struct PlacedLight {
 /// Reads a DirectionalLight, PointLight or SpotLight in world space, its scope still open; nothing
 /// when it is off.
 std::optional<PlacedLight> read_light(Light::Kind kind, const Fields& fields,
-                                      const Placement& placement, Version version);
+                                      const Placement& placement, Version version,
+                                      const Defaults& defaults);
 
 }  // namespace nuvo::x3d

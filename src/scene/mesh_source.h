@@ -28,6 +28,7 @@ struct MeshSource {
     const Element* color = nullptr;
     bool ccw = true;
     Polygons polygons;
+    bool smooths_unasked = true;  ///< Defaults::smooths_unasked
 };
 
 /// `index` as a place in a list of `count` `what`s; throws Error at entry `entry` of `field`.

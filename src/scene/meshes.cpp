@@ -49,7 +49,7 @@ void find_properties(const Element& geometry, MeshSource& source) {
             source.normal = &child.node();
         else if (is_color && source.color == nullptr)
             source.color = &child.node();
-        else if (!is_silent(kind))
+        else if (!is_silent(kind) && kind != "Appearance")  // of the Shape, if it has no other
             warn_not_drawn(child, source.messages);
     }
 }
@@ -59,11 +59,13 @@ void find_properties(const Element& geometry, MeshSource& source) {
 bool is_mesh(std::string_view name) { return find_kind(name) != nullptr; }
 
 std::optional<TriangleMesh> read_mesh(const Element& geometry, const Placement& placement,
-                                      Messages& messages, VertexBudget& budget) {
+                                      const Defaults& defaults, Messages& messages,
+                                      VertexBudget& budget) {
     const MeshKind& kind = *find_kind(geometry.name);
     const Fields fields(geometry, messages);
     MeshSource source{fields, messages, budget, nullptr, nullptr, nullptr, true, {}};
     find_properties(geometry, source);
+    source.smooths_unasked = defaults.smooths_unasked;
     source.ccw = !kind.has_winding || fields.boolean("ccw", true);
     if (kind.has_coordinates) {
         if (source.coordinate == nullptr) {

@@ -5,6 +5,7 @@
 
 #include "mesh_source.h"
 #include "nuvo/geometry/triangle_mesh.h"
+#include "nuvo/scene/defaults.h"
 #include "placement.h"
 
 namespace nuvo::x3d {
@@ -14,6 +15,7 @@ bool is_mesh(std::string_view name);
 
 /// Reads a geometry node as a mesh in world space; nothing when it has no triangles.
 std::optional<TriangleMesh> read_mesh(const Element& geometry, const Placement& placement,
-                                      Messages& messages, VertexBudget& budget);
+                                      const Defaults& defaults, Messages& messages,
+                                      VertexBudget& budget);
 
 }  // namespace nuvo::x3d

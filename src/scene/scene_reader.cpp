@@ -189,11 +189,12 @@ void SceneReader::read_shape(const Element& node, Group& group) {
         else
             messages_.warn(excerpt(kind), "beyond the first of its Shape left out", child);
     }
+    if (geometry != nullptr && appearance == nullptr) appearance = appearance_inside(*geometry);
     const std::optional<std::uint32_t> material = materials_.look_up(appearance);
     if (!material || geometry == nullptr) return;
     std::optional<Shape> shape = read_geometry(*geometry, group.placement);
     if (!shape) return;
-    if (repeats_.is_repeat(*shape, scene_.objects)) {
+    if (options_.defaults.drops_repeats && repeats_.is_repeat(*shape, scene_.objects)) {
         messages_.warn(geometry->name, "exactly where an earlier one is, so never seen, left out",
                        node);
         return;
@@ -206,9 +207,20 @@ void SceneReader::read_shape(const Element& node, Group& group) {
     scene_.objects.push_back({std::move(*shape), *material, shape_index, solid});
 }
 
+// The published program's own scenes have it there.
+const Element* SceneReader::appearance_inside(const Element& geometry) {
+    for (const Element& child : geometry.children)
+        if (child.kind() == "Appearance") {
+            messages_.warn("Appearance", "inside a geometry: taken for its Shape", child);
+            return &child.node();
+        }
+    return nullptr;
+}
+
 std::optional<Shape> SceneReader::read_geometry(const Element& node, const Placement& placement) {
     if (node.name == "Sphere") return read_sphere(node, placement);
-    if (is_mesh(node.name)) return read_mesh(node, placement, messages_, vertices_);
+    if (is_mesh(node.name))
+        return read_mesh(node, placement, options_.defaults, messages_, vertices_);
     warn_not_drawn(node, messages_);
     return std::nullopt;
 }
@@ -237,7 +249,8 @@ std::optional<Shape> SceneReader::read_sphere(const Element& node, const Placeme
 
 void SceneReader::add_light(Light::Kind kind, const Element& node, Group& group) {
     const Fields fields(node, messages_);
-    const std::optional<PlacedLight> placed = read_light(kind, fields, group.placement, version_);
+    const std::optional<PlacedLight> placed =
+        read_light(kind, fields, group.placement, version_, options_.defaults);
     if (!placed) return;
     const Light& light = placed->light;
     if (!is_finite(light.location) || !is_finite(light.direction) || !std::isfinite(light.radius) ||
@@ -252,7 +265,7 @@ void SceneReader::read_viewpoint_node(const Element& node, Group& group) {
     if (inline_depth_ > 0) return;
     scene_.viewpoints.push_back(viewpoint_name(node, scene_.viewpoints.size() + 1));
     if (has_viewpoint_ || !is_wanted(node, scene_.viewpoints.size(), options_.viewpoint)) return;
-    scene_.camera = read_viewpoint(Fields(node, messages_), group.placement);
+    scene_.camera = read_viewpoint(Fields(node, messages_), group.placement, options_.defaults);
     has_viewpoint_ = true;
 }
 

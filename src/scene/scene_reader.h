@@ -23,7 +23,7 @@ class SceneReader {
         : documents_(documents),
           options_(options),
           messages_(messages),
-          materials_(messages),
+          materials_(messages, options.defaults),
           vertices_{options.limits.vertices} {}
 
     Scene read(const Document& document);
@@ -56,6 +56,7 @@ class SceneReader {
     void find_camera_first(const Element& scene);
     void check_viewpoint() const;
     void add_light(Light::Kind kind, const Element& node, Group& group);
+    const Element* appearance_inside(const Element& geometry);
     std::optional<Shape> read_geometry(const Element& node, const Placement& placement);
     std::optional<Shape> read_sphere(const Element& node, const Placement& placement);
     void close_scopes(const Group& group, std::size_t first_object);

@@ -25,14 +25,14 @@ void match(const Fields& fields, std::string_view angle_field, std::vector<Color
 
 }  // namespace
 
-Camera read_viewpoint(const Fields& fields, const Placement& placement) {
+Camera read_viewpoint(const Fields& fields, const Placement& placement, const Defaults& defaults) {
     Camera camera;
     const Affine3& to_world = placement.to_world;
     camera.position = to_world.point(fields.vector("position", camera.position));
-    camera.field_of_view_rad = fields.number("fieldOfView", camera.field_of_view_rad);
+    camera.field_of_view_rad = fields.number("fieldOfView", defaults.field_of_view_rad);
     if (!(camera.field_of_view_rad > 0 && camera.field_of_view_rad < std::numbers::pi)) {
         fields.reject("fieldOfView", "is not between 0 and pi");
-        camera.field_of_view_rad = Camera{}.field_of_view_rad;
+        camera.field_of_view_rad = defaults.field_of_view_rad;
     }
     const Matrix3 orientation = fields.rotation("orientation");
     const Vector3 forward = normalized(to_world.vector(orientation * Vector3{0, 0, -1}));

@@ -6,12 +6,13 @@
 #include "fields.h"
 #include "nuvo/scene/background.h"
 #include "nuvo/scene/camera.h"
+#include "nuvo/scene/defaults.h"
 #include "placement.h"
 
 namespace nuvo::x3d {
 
 /// Reads a Viewpoint in world space. Scales move it but do not distort the view.
-Camera read_viewpoint(const Fields& fields, const Placement& placement);
+Camera read_viewpoint(const Fields& fields, const Placement& placement, const Defaults& defaults);
 
 /// The name of a Viewpoint: its DEF, else its description, else its number.
 std::string viewpoint_name(const Element& node, std::size_t number);

@@ -111,15 +111,36 @@ TEST(Options, AProfileIsChangedByItsSingleAnswersWhateverTheOrder) {
 
 TEST(Options, EveryAnswerOfAProfileHasAFlag) {
     const Options options =
-        parse({"--costs=thesis:12.5", "--leaves=shapes", "--precision=double", "--bias=0.04"});
+        parse({"--costs=thesis", "--leaves=shapes", "--precision=double", "--bias=0.04"});
     EXPECT_EQ(options.profile.costs, CostChoice::kThesis);
-    EXPECT_EQ(options.profile.thesis_weight, 12.5);
     EXPECT_EQ(options.profile.leaves, LeafContent::kShapes);
     EXPECT_EQ(options.profile.precision, Precision::kDouble);
     EXPECT_EQ(options.profile.bias, 0.04);
-    EXPECT_EQ(parse({"--costs=thesis"}).profile.thesis_weight, 8);
     EXPECT_EQ(parse({"--max-objects=3"}).profile.max_objects, std::size_t{3});
     EXPECT_EQ(parse({"--bias=0"}).profile.bias, 0.0);
+}
+
+TEST(Options, TheTypeIsTakenInAnyLetterCase) {
+    EXPECT_EQ(parse({"--type=NonUniform"}).profile.type, OctreeType::kNonuniform);
+    EXPECT_EQ(parse({"--type=UNIFORM", "--profile=thesis"}).profile.type, OctreeType::kUniform);
+}
+
+TEST(Options, TheThesisProfileBringsItsDefaultsUnlessOthersAreAskedFor) {
+    EXPECT_EQ(parse({}).defaults, &x3d::standard_defaults);
+    EXPECT_EQ(parse({"--profile=fast"}).defaults, &x3d::standard_defaults);
+    EXPECT_EQ(parse({"--profile=thesis"}).defaults, &x3d::thesis_defaults);
+    EXPECT_EQ(parse({"--defaults=x3d", "--profile=thesis"}).defaults, &x3d::standard_defaults);
+    EXPECT_EQ(parse({"--profile=thesis", "--defaults=thesis"}).defaults, &x3d::thesis_defaults);
+    EXPECT_EQ(parse({"--defaults=thesis"}).defaults, &x3d::thesis_defaults);
+}
+
+TEST(Options, CompareMayAskForBruteForce) {
+    EXPECT_TRUE(parse({"-compare"}).compare);
+    EXPECT_FALSE(parse({"-compare"}).compare_brute_force);
+    EXPECT_TRUE(parse({"--compare=brute"}).compare_brute_force);
+    EXPECT_TRUE(parse({"--error"}).error);
+    for (const char* other : {"-compare", "--rays=r", "--describe"})
+        EXPECT_TRUE(contains(usage_error({"--error", other}), "--error")) << other;
 }
 
 TEST(Options, EveryListedWordIsTaken) {
@@ -203,48 +224,18 @@ TEST(Options, LimitsHoldAtTheLimitAndOneBesideIt) {
 }
 
 TEST(Options, BadValuesAreNamedWithTheirFlag) {
-    for (const char* bad : {"--res=0,0",
-                            "--res=99999999,1",
-                            "--res=4",
-                            "--res=4,",
-                            "--res=,4",
-                            "--res=4,5,6",
-                            "--res=4x5",
-                            "--res=-4,5",
-                            "--res= 4,5",
-                            "--res=4.0,5",
-                            "--rep=0",
-                            "--rep=-1",
-                            "--rep=five",
-                            "--rep=1e3",
-                            "--rep=5 ",
-                            "--rep=99999999999999999999",
-                            "--type=octree",
-                            "--type=Uniform",
-                            "--profile=quick",
-                            "--costs=cheap",
-                            "--costs=thesis:",
-                            "--costs=thesis:0",
-                            "--costs=thesis:nan",
-                            "--costs=calibrated:3",
-                            "--step=0",
-                            "--step=-1",
-                            "--step=nan",
-                            "--step=inf",
-                            "--bias=-0.1",
-                            "--bias=nan",
-                            "--bias=0.1m",
-                            "--max-objects=0",
-                            "--max-objects=-1",
-                            "--leaves=trees",
-                            "--walk=run",
-                            "--precision=half",
-                            "--tracer=ray",
-                            "--threads=-1",
-                            "--threads=two",
-                            "--isa=mmx",
-                            "--headlight=dim",
-                            "--midpoint=middle"}) {
+    for (const char* bad :
+         {"--res=0,0",        "--res=99999999,1", "--res=4",        "--res=4,",
+          "--res=,4",         "--res=4,5,6",      "--res=4x5",      "--res=-4,5",
+          "--res= 4,5",       "--res=4.0,5",      "--rep=0",        "--rep=-1",
+          "--rep=five",       "--rep=1e3",        "--rep=5 ",       "--rep=99999999999999999999",
+          "--type=octree",    "--profile=quick",  "--costs=cheap",  "--costs=thesis:12",
+          "--defaults=vrml",  "-compare=1",       "-compare=Brute", "--costs=calibrated:3",
+          "--step=0",         "--step=-1",        "--step=nan",     "--step=inf",
+          "--bias=-0.1",      "--bias=nan",       "--bias=0.1m",    "--max-objects=0",
+          "--max-objects=-1", "--leaves=trees",   "--walk=run",     "--precision=half",
+          "--tracer=ray",     "--threads=-1",     "--threads=two",  "--isa=mmx",
+          "--headlight=dim",  "--midpoint=middle"}) {
         const std::string error = usage_error({bad});
         EXPECT_TRUE(contains(error, bad)) << bad << " gave: " << error;
         EXPECT_FALSE(contains(error, "\n"));

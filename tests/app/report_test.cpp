@@ -78,11 +78,25 @@ TEST(Report, PsnrOfEqualPicturesIsNullInJsonAndInfInText) {
     EXPECT_EQ(json["passes"].size(), 2u);
 }
 
+TEST(Report, TheErrorIsToldInTextAndJson) {
+    Report report = example();
+    Options options;
+    EXPECT_FALSE(contains(report_text(options, report), "exact profile"));
+    EXPECT_FALSE(nlohmann::json::parse(report_json(options, report)).contains("error"));
+    report.error = image::Difference{3, 1, 2, 0.5, 54.15, 17};
+    EXPECT_TRUE(contains(report_text(options, report),
+                         "error      from the exact profile's picture: 17 differing pixels, "
+                         "maximum difference 3 at pixel 1,2, RMS 0.5, PSNR 54.15 dB\n"));
+    const auto json = nlohmann::json::parse(report_json(options, report));
+    EXPECT_EQ(json["error"]["differing_pixels"], 17);
+    EXPECT_EQ(json["error"]["rms"], 0.5);
+}
+
 TEST(Report, ProfileAnswersAreTheFlagsThatGiveThem) {
     const std::vector<std::string> arguments{
         "--profile=thesis",   "--tracer=serial", "--type=nonuniform", "--midpoint=sweep",
-        "--costs=thesis:12",  "--leaves=shapes", "--walk=descent",    "--step=0.25",
-        "--precision=double", "--bias=0.5"};
+        "--costs=thesis",     "--leaves=shapes", "--walk=descent",    "--step=0.25",
+        "--precision=double", "--bias=0.5",      "--defaults=thesis"};
     std::string expected;
     for (const std::string& argument : arguments)
         expected += (expected.empty() ? "" : " ") + argument;

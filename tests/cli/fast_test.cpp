@@ -50,7 +50,7 @@ TEST_F(Fast, ThePictureIsTheExactOneToTheByteHoweverItIsMade) {
 TEST_F(Fast, CompareStandsBesideTheSerialTracerAndBruteForce) {
     put("a.x3d", grid_scene(4));
     const Outcome outcome =
-        run({"--file=a", "--res=48,36", "-compare", "--profile=fast", "--json=c.json"});
+        run({"--file=a", "--res=48,36", "-compare=brute", "--profile=fast", "--json=c.json"});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
     const auto json = nlohmann::json::parse(content("c.json"));
     std::vector<std::string> names;

@@ -143,13 +143,18 @@ TEST_F(Program, CountersAreAsked) {
 
 TEST_F(Program, CompareFindsNoDifferenceInTheExactProfile) {
     put("a.x3d", grid_scene(4));
-    const Outcome outcome = run({"--file=a", "--res=48,36", "-compare"});
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
-    std::istringstream lines(outcome.out);
-    int equal_pairs = 0;
-    for (std::string line; std::getline(lines, line);)
-        equal_pairs += contains(line, " / ") && contains(line, " 0 differing pixels");
-    EXPECT_EQ(equal_pairs, 3) << outcome.out;
+    for (const auto& [flag, pairs] : {std::pair{"-compare", 1}, std::pair{"-compare=brute", 3}}) {
+        const Outcome outcome = run({"--file=a", "--res=48,36", flag});
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+        std::istringstream lines(outcome.out);
+        int equal_pairs = 0;
+        for (std::string line; std::getline(lines, line);)
+            equal_pairs += contains(line, " / ") && contains(line, " 0 differing pixels");
+        EXPECT_EQ(equal_pairs, pairs) << outcome.out;
+        // The cost of brute force is said before it is paid: a grid of 64 shapes.
+        const bool forecast = contains(outcome.out, "brute force every ray against all 64 ");
+        EXPECT_EQ(forecast, pairs == 3) << outcome.out;
+    }
     EXPECT_EQ(files(), (std::set<std::string>{"a.x3d", "a.bmp", "a-difference.bmp"}));
     const std::string pixels = content("a-difference.bmp").substr(54);
     EXPECT_EQ(pixels, std::string(48 * 36 * 3, '\0'));
@@ -158,7 +163,7 @@ TEST_F(Program, CompareFindsNoDifferenceInTheExactProfile) {
 TEST_F(Program, CompareEndsWithOneWherePicturesDiffer) {
     put("a.x3d", grid_scene(4));
     // A step of 10^9 voxels leaves the tree at the first face: most spheres are never reached.
-    const Outcome outcome = run({"--file=a", "--res=48,36", "-compare", "--profile=thesis",
+    const Outcome outcome = run({"--file=a", "--res=48,36", "-compare=brute", "--profile=thesis",
                                  "--max-objects=1", "--step=1e9", "--out=c.bmp", "--json=c.json"});
     EXPECT_EQ(outcome.exit_code, 1) << outcome.out << outcome.err;
     EXPECT_NE(content("c-difference.bmp").substr(54), std::string(48 * 36 * 3, '\0'));
@@ -166,6 +171,25 @@ TEST_F(Program, CompareEndsWithOneWherePicturesDiffer) {
     ASSERT_EQ(json["pairs"].size(), 3u);
     EXPECT_GT(json["pairs"][1]["differing_pixels"], 0);  // uniform against brute force
     EXPECT_GT(json["pairs"][1]["max_difference"], 0);
+}
+
+TEST_F(Program, TheErrorIsThatOfThePictureAgainstTheExactProfiles) {
+    put("a.x3d", grid_scene(4));
+    const std::vector<std::string> flags{"--file=a", "--rep=1", "--res=48,36", "--json=a.json"};
+    auto with = [&](std::vector<std::string> more) {
+        more.insert(more.end(), flags.begin(), flags.end());
+        EXPECT_EQ(run(more).exit_code, 0);
+        return nlohmann::json::parse(content("a.json"));
+    };
+    EXPECT_FALSE(with({}).contains("error"));
+    for (const char* profile : {"--profile=exact", "--profile=fast"})
+        EXPECT_EQ(with({"--error", profile})["error"]["differing_pixels"], 0) << profile;
+    // As in CompareEndsWithOneWherePicturesDiffer.
+    const auto wrong =
+        with({"--error", "--profile=thesis", "--max-objects=1", "--step=1e9"})["error"];
+    EXPECT_GT(wrong["differing_pixels"], 0);
+    EXPECT_GT(wrong["rms"], 0);
+    EXPECT_GT(wrong["psnr_db"], 0);
 }
 
 TEST_F(Program, RaysAreAnsweredLineForLine) {

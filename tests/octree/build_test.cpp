@@ -21,13 +21,18 @@ std::vector<Bounds3> random_boxes(unsigned seed, std::size_t count, double size)
     return boxes;
 }
 
+float published_area(const Bounds3& box) {
+    const Vec3<float> w(box.widths());
+    return 2 * (w.x * (w.z + w.y) + w.z * w.y);
+}
+
 // The published algorithm as written, without running sums: the whole tree is summed up before and
 // after every trial split. [thesis 4.4.2]
 class RecomputingBuilder {
   public:
-    RecomputingBuilder(const std::vector<Bounds3>& boxes, const CostModel& costs,
-                       MidpointStrategy midpoint, int max_depth)
-        : boxes_(boxes), costs_(costs), midpoint_(std::move(midpoint)), max_depth_(max_depth) {
+    RecomputingBuilder(const std::vector<Bounds3>& boxes, const ThesisCosts& costs,
+                       MidpointStrategy midpoint)
+        : boxes_(boxes), costs_(costs), midpoint_(std::move(midpoint)) {
         Bounds3 root;
         std::vector<ItemId> all;
         for (const Bounds3& box : boxes) {
@@ -35,8 +40,10 @@ class RecomputingBuilder {
             all.push_back(static_cast<ItemId>(all.size()));
         }
         leaves_[0] = {root, all};
-        root_area_ = root.surface_area();
-        subdivide(0, 1);
+        root_area_ = published_area(root);
+        Voxel voxel = Voxel::centered(root);
+        if (const auto sized = midpoint_({voxel, boxes})) voxel.midpoint = *sized;
+        subdivide(0, voxel.midpoint);
     }
     std::set<Label> leaf_names() const {
         std::set<Label> names;
@@ -49,26 +56,28 @@ class RecomputingBuilder {
         Bounds3 box;
         std::vector<ItemId> items;
     };
-    double score() const {
+    float score() const {
         SahTotals totals;
-        for (const auto& [name, cell] : interiors_) totals.interior_area += cell.box.surface_area();
+        for (const auto& [name, cell] : interiors_)
+            totals.interior_area += published_area(cell.box);
         for (const auto& [name, cell] : leaves_) {
-            totals.leaf_area += cell.box.surface_area();
-            totals.leaf_area_objects +=
-                cell.box.surface_area() * static_cast<double>(cell.items.size());
+            const float area = published_area(cell.box);
+            totals.leaf_area += area;
+            totals.leaf_area_objects += area * static_cast<float>(cell.items.size());
         }
-        return sah(totals, root_area_, costs_(leaves_.size()));
+        totals.leaves = leaves_.size();
+        return costs_.of_tree(totals, root_area_);
     }
-    void subdivide(Label name, int level) {
-        if (level >= max_depth_) return;
+    void subdivide(Label name, const Point3& centre) {
         const Cell cell = leaves_.at(name);
-        Voxel voxel = Voxel::centered(cell.box);
+        if (cell.items.empty()) return;
+        Voxel voxel{cell.box, centre};
         std::vector<Bounds3> inside;
         for (ItemId id : cell.items) inside.push_back(boxes_[id]);
         const auto midpoint = midpoint_({voxel, inside});
         if (!midpoint) return;
         voxel.midpoint = *midpoint;
-        const double before = score();
+        const float before = score();
         leaves_.erase(name);
         interiors_[name] = cell;
         for (int digit = 1; digit <= 8; ++digit) {
@@ -78,7 +87,8 @@ class RecomputingBuilder {
             leaves_[child_label(name, digit)] = child;
         }
         if (score() < before) {
-            for (int digit = 1; digit <= 8; ++digit) subdivide(child_label(name, digit), level + 1);
+            for (int digit = 1; digit <= 8; ++digit)
+                subdivide(child_label(name, digit), voxel.octant(digit).center());
         } else {
             for (int digit = 1; digit <= 8; ++digit) leaves_.erase(child_label(name, digit));
             interiors_.erase(name);
@@ -87,9 +97,8 @@ class RecomputingBuilder {
     }
 
     const std::vector<Bounds3>& boxes_;
-    CostModel costs_;
+    ThesisCosts costs_;
     MidpointStrategy midpoint_;
-    int max_depth_;
     std::map<Label, Cell> leaves_;
     std::map<Label, Cell> interiors_;
     double root_area_ = 0;
@@ -108,10 +117,21 @@ TEST(Sah, IsEquation10) {
 }
 
 TEST(ThesisCosts, AreThoseOfSection541) {
-    const SahCosts costs = ThesisCosts{1000, 2}(15);
-    EXPECT_DOUBLE_EQ(costs.interior, 225);
-    EXPECT_DOUBLE_EQ(costs.leaf, 1000.0 / 15);
-    EXPECT_DOUBLE_EQ(costs.object, 2e6);
+    const SahCosts costs = ThesisCosts{1201, 2, 100}(15);
+    EXPECT_EQ(costs.interior, 225);
+    EXPECT_EQ(costs.leaf, 6);  // 100 / 15 in whole numbers
+    EXPECT_EQ(costs.object, 2.0 * 1201 * 1201);
+    EXPECT_EQ(ThesisCosts({1201, 2, 100})(101).leaf, 0);
+}
+
+TEST(ThesisCosts, PriceATreeInFloat) {
+    const ThesisCosts costs{1201, 2, 100};
+    // One leaf: its own price and that of its objects, whatever its area.
+    EXPECT_EQ(costs.of_tree({0, 5, 500, 1}, 5), 100 + 100 * 2.0F * 1201 * 1201);
+    const SahTotals totals{8, 7, 600, 8};
+    EXPECT_EQ(costs.of_tree(totals, 7), static_cast<float>(sah(totals, 7, costs(8))));
+    // Two trees that differ by less than float tells apart cost the same.
+    EXPECT_EQ(costs.of_tree(totals, 7), costs.of_tree({8, 7, 600 * (1 + 1e-9), 8}, 7));
 }
 
 TEST(Build, RunningSumsDecideAsTheWholeTreeDoes) {
@@ -120,15 +140,67 @@ TEST(Build, RunningSumsDecideAsTheWholeTreeDoes) {
             SCOPED_TRACE("seed " + std::to_string(seed));
             const auto boxes = random_boxes(seed, 60, seed * 2.0);
             BuildOptions options;
-            options.midpoint = uniform ? spatial_midpoint : mlsl_sbplx_midpoint;
-            options.worth = CostModel(ThesisCosts{480, 2});
-            options.max_depth = 6;
+            options.midpoint = uniform ? spatial_midpoint : published_midpoint;
+            const ThesisCosts costs{480, 2, boxes.size()};
+            options.worth = costs;
             const Octree octree = build_octree(boxes, options);
-            const RecomputingBuilder oracle(boxes, ThesisCosts{480, 2}, options.midpoint, 6);
+            const RecomputingBuilder oracle(boxes, costs, options.midpoint);
             EXPECT_GT(octree.leaf_count(), 8U);
             EXPECT_EQ(leaf_names(octree), oracle.leaf_names());
         }
     }
+}
+
+TEST(Build, PublishedPlacementIsStrict) {
+    // Cut at 1 on each axis: the first box touches the plane, the second spans it, the third lies
+    // in it and is lost, as published.
+    const std::vector<Bounds3> boxes{{{0, 0, 0}, {1, 1, 1}},
+                                     {{0, 0, 0}, {2, 0.5, 0.5}},
+                                     {{0, 1, 0}, {0.5, 1, 0.5}},
+                                     {{1.5, 1.5, 1.5}, {2, 2, 2}}};
+    BuildOptions options;
+    options.worth = ThesisCosts{100, 2, boxes.size()};
+    options.strict_placement = true;
+    const Octree octree = build_octree(boxes, options);
+    ASSERT_GE(octree.leaf_count(), 8U);
+    std::map<ItemId, std::set<Label>> places;
+    for (const Node& node : octree.nodes())
+        for (ItemId id : octree.contents(node))
+            if (node.is_leaf())
+                places[id].insert(node.label / [&] {
+                    Label unit = 1;
+                    while (node.label / unit > 8) unit *= 10;
+                    return unit;
+                }());
+    EXPECT_EQ(places[0], (std::set<Label>{5}));
+    EXPECT_EQ(places[1], (std::set<Label>{5, 6}));
+    EXPECT_EQ(places[2], (std::set<Label>{}));
+    EXPECT_EQ(places[3], (std::set<Label>{4}));
+}
+
+TEST(Build, ThePublishedDepthIsTheDeepestLevelTried) {
+    // One item in one leaf: a cut is tried below the root and taken back.
+    BuildOptions options;
+    options.worth = ThesisCosts{2, 1, 1};
+    const Octree octree = build_octree(std::vector<Bounds3>{{{0, 0, 0}, {1, 1, 1}}}, options);
+    EXPECT_EQ(octree.leaf_count(), 1U);
+    EXPECT_EQ(octree.depth(), 1);
+    EXPECT_EQ(octree.depth_tried(), 1);
+    EXPECT_FALSE(build_octree(random_boxes(2, 50, 1), {}).depth_tried());
+}
+
+TEST(Octree, NamesLeadToNodesWithAndWithoutTheirMap) {
+    BuildOptions options;
+    options.worth = MaxObjects{2};
+    Octree octree = build_octree(random_boxes(4, 100, 1), options);
+    EXPECT_TRUE(octree.names().empty());
+    const std::size_t bytes = octree.memory_bytes();
+    octree.make_names();
+    EXPECT_GT(octree.memory_bytes(), bytes);
+    EXPECT_EQ(octree.names().size(), octree.nodes().size());
+    for (const auto& [label, index] : octree.names()) EXPECT_EQ(octree.find_name(label), index);
+    for (const Label none : {Label{9}, Label{10}, Label{111111111}, Label{109}})
+        EXPECT_FALSE(octree.find_name(none)) << none;
 }
 
 TEST(Build, LeavesTileTheRootAndListWhatTheyOverlap) {
@@ -171,20 +243,17 @@ TEST(Build, MaxObjectsCutsUntilNoLeafHoldsMore) {
     EXPECT_EQ(build_octree(boxes, options).leaf_count(), 1U);
 }
 
-TEST(Build, CutsNothingMoreOnceItsReferencesAreSpent) {
-    const auto boxes = random_boxes(6, 400, 60);  // each spans most of the root
+TEST(Build, ThesisCostsCutNothingMoreOnceTheReferencesAreSpent) {
+    const auto boxes = random_boxes(6, 400, 10);
     BuildOptions options;
-    // A price under which every cut seems worth it.
-    options.worth = CostModel([](std::size_t leaves) {
-        return SahCosts{0, 1.0 / (static_cast<double>(leaves) * static_cast<double>(leaves)), 0};
-    });
-    options.max_depth = 4;
+    options.worth = ThesisCosts{40000, 2, boxes.size()};  // tests are dear
+    options.max_depth = 6;
     const std::size_t unlimited = build_octree(boxes, options).reference_count();
-    options.max_references = 4000;
+    options.max_references = unlimited / 2;
     const std::size_t limited = build_octree(boxes, options).reference_count();
-    EXPECT_GT(unlimited, 15000U);
-    EXPECT_LT(limited, 4000U + 8 * boxes.size());  // the last cut may overshoot
-    EXPECT_GE(limited, 400U);
+    EXPECT_GE(limited, unlimited / 2);
+    EXPECT_LT(limited, unlimited / 2 + 8 * boxes.size());  // the last cut may overshoot
+    EXPECT_LT(limited, unlimited);
     options.max_references = unlimited;
     EXPECT_EQ(build_octree(boxes, options).reference_count(), unlimited);
 }

@@ -41,8 +41,8 @@ TEST(MidpointScore, GivesTheValuesOfTheThesisExample) {
                                      {{0.4, 0.3, 0}, {0.4, 0.3, 1}},
                                      {{0.8, 0.9, 0}, {0.8, 0.9, 1}}};
     const MidpointScore score({voxel, boxes});
-    EXPECT_NEAR(score({0.5, 0.375, 0.5}), 3 * 2.0625, 1e-12);
-    EXPECT_NEAR(score({0.25, 0.475, 0.5}), 3 * 2.58125, 1e-12);
+    EXPECT_NEAR(score.product({0.5, 0.375, 0.5}), 3 * 2.0625, 1e-12);
+    EXPECT_NEAR(score.product({0.25, 0.475, 0.5}), 3 * 2.58125, 1e-12);
 }
 
 TEST(AxisEdges, CountsSpanningBoxesOnBothSidesAndTouchingOnesOnNone) {
@@ -67,7 +67,7 @@ TEST(MlslSbplx, StaysBetweenTheMediansAndIsDeterministic) {
     }
     EXPECT_EQ(mlsl_sbplx_midpoint(query), midpoint);
     const MidpointScore score(query);
-    EXPECT_LE(score(*midpoint), score(voxel.midpoint));
+    EXPECT_LE(score.product(*midpoint), score.product(voxel.midpoint));
 }
 
 TEST(MlslSbplx, DoesNotCutWhereTheMedianIsOnOrOutsideAFace) {
@@ -86,6 +86,60 @@ TEST(MlslSbplx, TakesTheCommonPointWhereTheMediansCoincide) {
     ASSERT_TRUE(midpoint);
     EXPECT_EQ(midpoint->y, 1);
     EXPECT_EQ(midpoint->z, 1);
+}
+
+// Eq. 16 by hand: on x 2 * 1 + (10 - 2) * 2, on y 5 * 2 + (10 - 5) * 2, on z 9 * 2 + 1 * 0.
+TEST(MidpointScore, SumsTheAxesInSceneUnits) {
+    const Voxel voxel = Voxel::centered({{0, 0, 0}, {10, 10, 10}});
+    const std::vector<Bounds3> boxes{{{1, 0, 0}, {3, 10, 1}}, {{4, 0, 0}, {5, 10, 8}}};
+    EXPECT_EQ(MidpointScore({voxel, boxes}).sum({2, 5, 9}), 18 + 20 + 18);
+}
+
+Point3 mean_center(const std::vector<Bounds3>& boxes) {
+    Point3 sum;
+    for (const Bounds3& box : boxes) sum += box.center();
+    return sum / static_cast<double>(boxes.size());
+}
+
+TEST(PublishedMidpoint, StaysBetweenMeanAndMidpointAndIsDeterministic) {
+    const Voxel voxel = Voxel::centered({{0, 0, 0}, {8, 4, 2}});
+    const auto boxes = random_boxes(7, 200, {{0, 0, 0}, {3, 3, 1.5}});
+    const SplitQuery query{voxel, boxes};
+    const auto midpoint = published_midpoint(query);
+    ASSERT_TRUE(midpoint);
+    const Point3 mean = mean_center(boxes);
+    for (int axis = 0; axis < 3; ++axis) {
+        EXPECT_GE((*midpoint)[axis], std::min(mean[axis], voxel.midpoint[axis]) - 1e-6);
+        EXPECT_LE((*midpoint)[axis], std::max(mean[axis], voxel.midpoint[axis]) + 1e-6);
+    }
+    EXPECT_EQ(published_midpoint(query), midpoint);
+    const MidpointScore score(query);
+    EXPECT_LE(score.sum(*midpoint), score.sum(mean) * (1 + 1e-6));  // where the search starts
+    // The voxel's own midpoint is an end of the search, not its centre.
+    const Voxel off{voxel.bounds, {2, 1, 0.5}};
+    const auto other = published_midpoint({off, boxes});
+    ASSERT_TRUE(other);
+    EXPECT_LE(other->x, 2.1);
+}
+
+TEST(PublishedMidpoint, DoesNotCutWhereTheSearchComesWithinATenthOfAFace) {
+    const Voxel voxel = Voxel::centered({{0, 0, 0}, {4, 4, 4}});
+    EXPECT_FALSE(published_midpoint({voxel, points({{3.95, 2, 2}})}));
+    EXPECT_FALSE(published_midpoint({voxel, points({{2, -2, 2}})}));  // clamped to the face
+    EXPECT_FALSE(published_midpoint({voxel, {}}));
+    EXPECT_TRUE(published_midpoint({voxel, points({{3.85, 3, 3}})}));
+    // So no voxel narrower than 0.2 is cut.
+    const Voxel thin = Voxel::centered({{0, 0, 0}, {4, 4, 0.19}});
+    EXPECT_FALSE(published_midpoint({thin, points({{3, 3, 0.095}})}));
+}
+
+TEST(PublishedMidpoint, TakesTheUpperCornerOfAThinBoxInALargeVoxelOnly) {
+    // x and z agree: nothing to search between.
+    const auto boxes = points({{2.5, 3, 2}, {1.5, 3, 2}});
+    const Voxel large = Voxel::centered({{0, 0, 0}, {4, 4, 4}});
+    EXPECT_EQ(published_midpoint({large, boxes}), (Point3{2, 3, 2}));
+    const Voxel small = Voxel::centered({{1, 1, 1}, {3, 3.5, 3}});  // half as wide as 1
+    EXPECT_FALSE(published_midpoint({small, boxes}));
 }
 
 TEST(Sweep, FindsTheLeastCostOfAllPlanesOfAFineGrid) {

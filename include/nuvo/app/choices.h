@@ -27,7 +27,8 @@ inline constexpr std::array kOctreeTypes{Choice{"uniform", OctreeType::kUniform}
                                          Choice{"nonuniform", OctreeType::kNonuniform}};
 inline constexpr std::array kMidpoints{Choice{"spatial", MidpointChoice::kSpatial},
                                        Choice{"sweep", MidpointChoice::kSweep},
-                                       Choice{"mlsl-sbplx", MidpointChoice::kMlslSbplx}};
+                                       Choice{"mlsl-sbplx", MidpointChoice::kMlslSbplx},
+                                       Choice{"published", MidpointChoice::kPublished}};
 inline constexpr std::array kCosts{Choice{"thesis", CostChoice::kThesis},
                                    Choice{"calibrated", CostChoice::kCalibrated}};
 inline constexpr std::array kLeafContents{Choice{"shapes", LeafContent::kShapes},
@@ -42,6 +43,8 @@ inline constexpr std::array kTracers{Choice{"serial", TracerChoice::kSerial},
 inline constexpr std::array kInstructionSets{
     Choice{"avx512", InstructionSet::kAvx512}, Choice{"avx2", InstructionSet::kAvx2},
     Choice{"sse4", InstructionSet::kSse4}, Choice{"sse2", InstructionSet::kSse2}};
+inline constexpr std::array kDefaults{Choice{"x3d", &x3d::standard_defaults},
+                                      Choice{"thesis", &x3d::thesis_defaults}};
 inline constexpr std::array kHeadlights{Choice{"auto", x3d::Headlight::kAuto},
                                         Choice{"on", x3d::Headlight::kOn},
                                         Choice{"off", x3d::Headlight::kOff}};

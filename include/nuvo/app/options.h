@@ -31,6 +31,7 @@ struct Options {
     x3d::Headlight headlight = x3d::Headlight::kAuto;
     std::string viewpoint;  ///< empty: the first
     bool strict = false;    ///< what could be left out of a scene refuses it
+    x3d::Defaults (*defaults)() = &x3d::standard_defaults;  ///< else those of the profile
     x3d::Limits limits;
     int max_side_pixels = kMaxSidePixels;
     std::optional<std::string> rays;
@@ -40,6 +41,8 @@ struct Options {
     std::optional<std::string> study_json;
     bool show_octree = false;
     bool compare = false;
+    bool compare_brute_force = false;  ///< with compare: by brute force, too
+    bool error = false;                ///< against the exact profile's picture
     bool describe = false;
     bool counters = false;
     bool quiet = false;

@@ -83,7 +83,8 @@ struct Report {
     double write_seconds = 0;
     std::vector<Pass> passes;
     std::vector<Pair> pairs;
-    std::optional<std::size_t> rays;  ///< queries answered
+    std::optional<image::Difference> error;  ///< from the exact profile's picture
+    std::optional<std::size_t> rays;         ///< queries answered
     std::optional<std::size_t> hits;
 };
 

@@ -11,9 +11,6 @@
 
 namespace nuvo {
 
-/// Prices that depend on the number of leaves so far, fed to the one sah(): the tree depends on the
-/// order of cuts.
-using CostModel = std::function<SahCosts(std::size_t leaves)>;
 /// The assignment's stop rule: a voxel is cut until it holds at most `count` items. [COMP1011]
 struct MaxObjects {
     std::size_t count = 1;
@@ -23,10 +20,14 @@ using OverlapTest = std::function<bool(ItemId id, const Bounds3& box)>;
 
 struct BuildOptions {
     MidpointStrategy midpoint = spatial_midpoint;
-    MidpointStrategy fallback;  ///< tried, too, where cuts save little; not under a CostModel
-    std::variant<CalibratedCosts, CostModel, MaxObjects> worth = CalibratedCosts{};
+    MidpointStrategy fallback;  ///< tried, too, where cuts save little; not under ThesisCosts
+    std::variant<CalibratedCosts, ThesisCosts, MaxObjects> worth = CalibratedCosts{};
     OverlapTest overlaps;  ///< empty: the boxes decide
     double margin = 0;     ///< items are listed where they come this near; scene units
+    /// An item whose box does no more than touch a cut's plane is not listed beyond it, and one
+    /// that lies in the plane nowhere: the published placement, for walks that are pushed past
+    /// planes.
+    bool strict_placement = false;
     int max_depth = kMaxLabelDigits + 1;  ///< levels, 1..20
     /// No voxel is cut once the leaves hold this many references to items: a bound on time and
     /// memory where items lie so close that cuts hardly part them. What it buys under constant
@@ -34,12 +35,13 @@ struct BuildOptions {
     std::size_t max_references = std::numeric_limits<std::size_t>::max();
 };
 
-/// Cuts the box of all `boxes` into an octree. Under a CostModel depth first in label order; a
-/// split under which the whole tree's SAH does not fall is taken back. [thesis 4.4.2, 5.4.1]
-/// Under constant prices the cut first that saves most for each reference added, and, with a
-/// margin, on those axes only on which cutting pays. An axis on which a voxel is not cut, for that
-/// or because its halves would be thinner than a few ulp of their coordinates, gives upper octants
-/// without width, which hold nothing. Nodes and items stand depth first in any case.
+/// Cuts the box of all `boxes` into an octree. Under ThesisCosts, which depend on the leaves so
+/// far, depth first in label order; a split under which the whole tree's cost does not fall is
+/// taken back. [thesis 4.4.2, 5.4.1] Under constant prices the cut first that saves most for each
+/// reference added, and, with a margin, on those axes only on which cutting pays. An axis on which
+/// a voxel is not cut, for that or because its halves would be thinner than a few ulp of their
+/// coordinates, gives upper octants without width, which hold nothing. Nodes and items stand depth
+/// first in any case.
 Octree build_octree(std::span<const Bounds3> boxes, const BuildOptions& options = {});
 
 /// Sums of a finished tree computed afresh, for comparison with the builder's running ones.

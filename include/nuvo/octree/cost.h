@@ -22,13 +22,23 @@ struct SahTotals {
 /// The tree's expected cost per ray that enters the root, whose area is `root_area`. [eq. 10]
 double sah(const SahTotals& totals, double root_area, const SahCosts& costs);
 
-/// Prices of thesis 5.4.1, which depend on the number of leaves so far.
-struct ThesisCosts {
-    double shapes = 0;  ///< numShapes
-    double lights = 0;  ///< numLights
+/// What the published program counts in 5.4.1's numShapes: 1, and for each shape so much. The 1.5
+/// is a result of the parameter search of 4.8.
+inline constexpr double kThesisShapesBase = 1;
+inline constexpr double kThesisShapesPerSphere = 1;
+inline constexpr double kThesisShapesPerTriangle = 1.5;
 
-    /// V^2, S / V and L S^2.
+/// Prices of thesis 5.4.1, which depend on the number of leaves so far, in float as published.
+struct ThesisCosts {
+    double shapes = 0;        ///< numShapes
+    double lights = 0;        ///< numLights
+    std::size_t objects = 0;  ///< in the root
+
+    /// With V leaves: V^2; objects / V, a whole number; L S^2.
     SahCosts operator()(std::size_t leaves) const;
+    /// What cuts are judged by: the whole tree's cost, rounded to float. A tree of one leaf costs
+    /// that leaf and its objects.
+    float of_tree(const SahTotals& totals, double root_area) const;
 };
 
 /// Constant prices in units of one primitive test: a node step costs `step`.

@@ -35,7 +35,8 @@ struct Node {
 class Octree {
   public:
     Octree() = default;
-    Octree(std::vector<Node> nodes, std::vector<ItemId> items);
+    /// `depth_tried`: the deepest level at which a cut was tried, if it was noted.
+    Octree(std::vector<Node> nodes, std::vector<ItemId> items, std::optional<int> depth_tried = {});
 
     std::span<const Node> nodes() const { return nodes_; }
     const Node& root() const { return nodes_[0]; }
@@ -46,12 +47,15 @@ class Octree {
     std::size_t leaf_count() const { return (nodes_.size() * 7 + 1) / 8; }
     /// Levels, the root's included: 1 for a tree that is one leaf.
     int depth() const { return depth_; }
+    /// The published program's depth: the deepest level tried below the root, cuts that were taken
+    /// back included. Known of trees built by its rules only.
+    std::optional<int> depth_tried() const { return depth_tried_; }
     /// References to items over all leaves.
     std::size_t reference_count() const { return items_.size(); }
     /// Whether the builder's budget of references kept it from cuts that pay.
     bool out_of_budget() const { return out_of_budget_; }
     void set_out_of_budget(bool value) { out_of_budget_ = value; }
-    /// Bytes of nodes, references and the hash map's entries.
+    /// Bytes of nodes, references and the hash map's entries, if there is one.
     std::size_t memory_bytes() const;
 
     /// Narrowest width of any leaf on any axis. [COMP1011 findMinSize; thesis 4.4.4]
@@ -62,8 +66,11 @@ class Octree {
     /// past the exit face by a step in proportion to the smallest leaf. [COMP1011 pointNextVoxel]
     Point3 point_next_voxel(const Ray& ray) const;
 
-    /// The node of that name, through the hash map. [thesis 5.4]
+    /// The node of that name.
     std::optional<NodeIndex> find_name(Label label) const;
+    /// Makes the hash map of names, for the walk that finds voxels by it. [thesis 5.4]
+    void make_names();
+    /// Empty until it is made.
     const std::unordered_map<Label, NodeIndex>& names() const { return names_; }
 
   private:
@@ -71,6 +78,7 @@ class Octree {
     std::vector<ItemId> items_;
     std::unordered_map<Label, NodeIndex> names_;
     int depth_ = 0;
+    std::optional<int> depth_tried_;
     double smallest_width_ = 0;
     bool out_of_budget_ = false;
 };

@@ -233,6 +233,11 @@ class ExactWalk {
     int level_ = 0;
 };
 
+/// Where a walk begins: a ray that comes from anywhere searches its first leaf from the root; one
+/// that leaves a surface starts, without a search, in the leaf that its origin belongs to.
+/// [thesis 5.3.2]
+enum class WalkStart { kRoot, kLeaf };
+
 /// The published walk: a point is pushed past each face by `step` times the smallest voxel width.
 /// `visit(leaf)` returns true to end the walk. Leaves can be missed, and the walk gives up where
 /// the pushed point makes no headway. [thesis 4.4.4, 5.4.3]
@@ -242,36 +247,29 @@ class NudgedWalk {
     NudgedWalk(const Octree& octree, double step)
         : octree_(octree), push_(static_cast<T>(step * octree.smallest_width())) {}
 
-    /// Walks from the ray's origin. `on_search` is called for each search of a next leaf.
+    /// `on_search` is called for each search of a next leaf, in vain or not.
     template <typename OnSearch, typename Visit>
-    void operator()(const RayT<T>& ray, OnSearch&& on_search, Visit&& visit) const {
-        NodeIndex leaf = 0;
-        const T push = push_ / length(ray.direction);
-        const Bounds3T<T> root = bounds_of(octree_.root());
-        if (contains(root, ray.origin)) {
-            leaf = find(ray.origin);
-        } else {
-            const auto [near, far] = crossings(root, ray);
-            if (!(near <= far && far > 0)) return;
-            if (!octree_.root().is_leaf()) {
-                on_search();
-                const Vec3<T> p = ray.at(near + push);
-                if (!contains(root, p)) return;
-                leaf = find(p);
-            }
-        }
-        // Where the way to the far face does not grow, the ray is in the same leaf again or goes to
-        // and fro between two: the endless loop of thesis 5.4.2, cut short.
+    void operator()(const RayT<T>& ray, WalkStart start, OnSearch&& on_search,
+                    Visit&& visit) const {
+        const Node& root = octree_.root();
+        // How far along the ray the walk has come. Where the way to the far face does not grow, the
+        // ray is in the same leaf again or goes to and fro between two: the endless loop of thesis
+        // 5.4.2, cut short.
         T reached = -std::numeric_limits<T>::infinity();
-        for (;;) {
-            const Node& node = octree_.nodes()[leaf];
-            const T far = crossings(bounds_of(node), ray).far;
-            if (!(far > reached) || visit(node)) return;
-            reached = far;
+        std::optional<NodeIndex> leaf;
+        if (start == WalkStart::kLeaf || bounds_of(root).contains(ray.origin)) {
+            leaf = find(ray.origin);
+        } else if (!root.is_leaf()) {
             on_search();
-            const Vec3<T> p = ray.at(far + push);
-            if (!contains(root, p)) return;
-            leaf = find(p);
+            leaf = next(root, ray, reached);
+        } else if (crossings(bounds_of(root), ray).hit()) {
+            leaf = 0;
+        }
+        while (leaf) {
+            const Node& node = octree_.nodes()[*leaf];
+            if (visit(node)) return;
+            on_search();
+            leaf = next(node, ray, reached);
         }
     }
 
@@ -280,12 +278,28 @@ class NudgedWalk {
     }
 
   private:
+    // A face this near counts as behind the ray: the program's epsilon, in scene units. [5.5]
+    static constexpr T kLeastWay = static_cast<T>(1e-5);
+
     struct Crossings {
         T near;
         T far;
+        bool hit() const { return near < far && far > kLeastWay; }
     };
 
-    static bool contains(const Bounds3T<T>& box, const Vec3<T>& p) { return box.contains(p); }
+    // A voxel search: the leaf after `node`, or the first one where `node` is cut.
+    std::optional<NodeIndex> next(const Node& node, const RayT<T>& ray, T& reached) const {
+        const Crossings c = crossings(bounds_of(node), ray);
+        if (!c.hit()) return std::nullopt;
+        if (node.is_leaf()) {
+            if (!(c.far > reached)) return std::nullopt;
+            reached = c.far;
+        }
+        const Vec3<T> push = ray.direction * (push_ / length(ray.direction));
+        const Vec3<T> p = ray.at(node.is_leaf() ? c.far : c.near) + push;
+        if (!bounds_of(octree_.root()).contains(p)) return std::nullopt;
+        return find(p);
+    }
 
     static Crossings crossings(const Bounds3T<T>& box, const RayT<T>& ray) {
         Crossings c{-std::numeric_limits<T>::infinity(), std::numeric_limits<T>::infinity()};
@@ -304,6 +318,7 @@ class NudgedWalk {
         return c;
     }
 
+    // The leaf that p belongs to; outside the root, the one that p is nearest by its octants.
     NodeIndex find(const Vec3<T>& p) const {
         const Point3 point(p);
         NodeIndex index = 0;

@@ -7,11 +7,12 @@ namespace nuvo {
 
 enum class OctreeType { kUniform, kNonuniform };
 /// How a non-uniform voxel is cut. Uniform trees always cut at the spatial midpoint.
-enum class MidpointChoice { kSpatial, kSweep, kMlslSbplx };
+enum class MidpointChoice { kSpatial, kSweep, kMlslSbplx, kPublished };
 enum class LeafContent { kShapes, kPrimitives };
 enum class WalkChoice { kHash, kDescent };
 enum class Precision { kFloat, kDouble, kExact };
-/// kThesis: the costs of thesis 5.4.1; kCalibrated: constant, measured costs.
+/// kThesis: the published costs and the rules that go with them [5.4]; kCalibrated: constant,
+/// measured costs.
 enum class CostChoice { kThesis, kCalibrated };
 /// kSerial: one ray at a time through an Octree, all else as chosen. kTiles: FastTracer, which
 /// shows what the exact profile shows and whose other answers but the type are its own.
@@ -24,8 +25,6 @@ struct Profile {
     OctreeType type = OctreeType::kUniform;
     MidpointChoice midpoint = MidpointChoice::kMlslSbplx;  ///< used by non-uniform trees only
     CostChoice costs = CostChoice::kCalibrated;
-    /// What a mesh of 8 triangles counts as in the thesis' costs (others in proportion).
-    double thesis_weight = 8;
     std::optional<std::size_t> max_objects;  ///< stop rule of COMP1011 instead of the costs
     LeafContent leaves = LeafContent::kPrimitives;
     WalkChoice walk = WalkChoice::kHash;

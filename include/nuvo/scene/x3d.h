@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "nuvo/scene/defaults.h"
 #include "nuvo/scene/scene.h"
 
 namespace nuvo::x3d {
@@ -42,6 +43,7 @@ struct ReadOptions {
     /// False: a field, node or Shape that cannot be read is left out with a warning. True: it
     /// throws Error.
     bool strict = false;
+    Defaults defaults = {};
 };
 
 /// Reads an X3D file (XML encoding, perhaps packed by gzip; root X3D or a bare Scene) into world
