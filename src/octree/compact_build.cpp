@@ -100,17 +100,18 @@ class Ranges {
 }  // namespace
 
 CompactOctree build_compact_octree(std::span<const Bounds3T<float>> boxes,
-                                   const CompactBuildOptions& user_options) {
+                                   const CompactBuildOptions& options) {
     CompactOctree tree;
     tree.bounds = root_box(boxes);
-    CompactBuildOptions options = user_options;
-    options.costs.beam *= max_norm(tree.bounds.widths());  // now in the boxes' units
     const Allowance allowance{
         std::max(options.max_references_per_item * static_cast<double>(boxes.size()),
                  options.free_references),
         CompactNode::kMaxNodes - 1.0};
-    std::vector<PlanNode> plan = make_plan({tree.bounds, 1, allowance}, boxes, options);
-    carry_out(plan, boxes, options);
+    const Place root{tree.bounds, 1, allowance};
+    const Recipe recipe{boxes, options.overlaps, Prices(options.costs, tree.bounds, boxes.size()),
+                        options.rule, options.threads};
+    std::vector<PlanNode> plan = make_plan(root, recipe);
+    carry_out(plan, recipe);
     const Ranges ranges(plan, tree);
     tree.nodes.shrink_to_fit();
     tree.items.resize(ranges.item_count());

@@ -9,6 +9,15 @@
 
 namespace nuvo {
 
+/// What a whole tree is made of.
+struct Recipe {
+    BoxSpan boxes;
+    const OctantTest& overlaps;
+    Prices prices;
+    CutRule rule;
+    int threads;
+};
+
 /// What a voxel may still take: a share of the whole tree's limits, in proportion to its items, so
 /// that no part of the scene takes what another needs.
 struct Allowance {
@@ -47,23 +56,25 @@ struct SplitMasks {
 /// items are then in masks.kept. `mark(cut, masks)` sets the octants and returns their counts.
 /// Where the sweep finds little, because it sees the items' boxes only, the centre is tried, too.
 template <typename Mark>
-std::optional<Split> find_split(CutRule rule, const Prices& prices, const Place& place,
-                                ItemSpan items, BoxSpan boxes, SplitMasks& masks, Mark&& mark) {
+std::optional<Split> find_split(const Recipe& recipe, const Place& place, ItemSpan items,
+                                SplitMasks& masks, Mark&& mark) {
+    const Prices& prices = recipe.prices;
     constexpr double kLittle = 0.75;  // of the cost of a leaf; commonly half of it is left
     if (place.level >= CompactOctree::kMaxDepth || !prices.may_pay(items.size()))
         return std::nullopt;
     if (masks.kept.size() < items.size()) masks.kept.resize(items.size());
     const auto attempt = [&](CutRule by, std::vector<std::uint8_t>& out) -> std::optional<Split> {
-        const std::optional<CutVoxel> cut = choose_cut(by, place.voxel, items, boxes);
+        const std::optional<CutVoxel> cut = choose_cut(by, place.voxel, items, recipe.boxes);
         if (!cut) return std::nullopt;
         return Split{*cut, mark(*cut, out.data())};
     };
-    std::optional<Split> split = attempt(rule, masks.kept);
-    if (rule == CutRule::kSweep && items.size() >= kManyItems &&
-        (!split || prices.after(*split) > kLittle * prices.leaf(place.voxel, items.size()))) {
+    std::optional<Split> split = attempt(recipe.rule, masks.kept);
+    if (recipe.rule == CutRule::kSweep && items.size() >= kManyItems &&
+        (!split || prices.after(*split, items.size()) > kLittle * prices.leaf(items.size()))) {
         if (masks.tried.size() < items.size()) masks.tried.resize(items.size());
         const std::optional<Split> other = attempt(CutRule::kSpatial, masks.tried);
-        if (other && (!split || prices.after(*other) < prices.after(*split))) {
+        if (other &&
+            (!split || prices.after(*other, items.size()) < prices.after(*split, items.size()))) {
             split = other;
             std::swap(masks.kept, masks.tried);
         }

@@ -18,14 +18,14 @@ constexpr std::size_t kChunk = 8192;  // items of a voxel that a thread marks at
 
 class Planner {
   public:
-    Planner(BoxSpan boxes, const CompactBuildOptions& options)
-        : boxes_(boxes), options_(options), prices_(options.costs) {
-        for (int i = 0; i < options.threads; ++i) markers_.emplace_back(boxes, options.overlaps);
+    explicit Planner(const Recipe& recipe) : recipe_(recipe) {
+        for (int i = 0; i < recipe.threads; ++i)
+            markers_.emplace_back(recipe.boxes, recipe.overlaps);
     }
 
     std::optional<Split> try_split(const PlanNode& node) {
         const std::optional<Split> split = find_split(
-            options_.rule, prices_, node.place, node.items, boxes_, masks_,
+            recipe_, node.place, node.items, masks_,
             [&](const CutVoxel& cut, std::uint8_t* masks) { return mark(cut, node.items, masks); });
         return split && split->occupied() != 0 ? split : std::nullopt;
     }
@@ -41,7 +41,7 @@ class Planner {
             first[i] = count_octants(masks_.kept.data() + begin, end - begin);
             for (unsigned o = 0; o < 8; ++o) first[i][o] += first[i - 1][o];
         }
-        for_each_index(options_.threads, chunks, [&](std::size_t i, int) {
+        for_each_index(recipe_.threads, chunks, [&](std::size_t i, int) {
             std::array<std::uint32_t*, 8> next;
             for (unsigned o = 0; o < 8; ++o) next[o] = octants[o].data() + first[i][o];
             const auto [begin, end] = chunk(i, node.items.size());
@@ -60,7 +60,7 @@ class Planner {
     std::array<std::size_t, 8> mark(const CutVoxel& voxel, ItemSpan items, std::uint8_t* masks) {
         const std::size_t chunks = chunks_of(items.size());
         std::vector<std::array<std::size_t, 8>> counts(chunks);
-        for_each_index(options_.threads, chunks, [&](std::size_t i, int thread) {
+        for_each_index(recipe_.threads, chunks, [&](std::size_t i, int thread) {
             const auto [begin, end] = chunk(i, items.size());
             const ItemSpan part = items.subspan(begin, end - begin);
             counts[i] = markers_[static_cast<std::size_t>(thread)].mark(voxel, part, masks + begin);
@@ -71,23 +71,20 @@ class Planner {
         return sums;
     }
 
-    BoxSpan boxes_;
-    const CompactBuildOptions& options_;
-    Prices prices_;
+    const Recipe& recipe_;
     std::vector<OctantMarker> markers_;
     SplitMasks masks_;
 };
 
 }  // namespace
 
-std::vector<PlanNode> make_plan(const Place& root, BoxSpan boxes,
-                                const CompactBuildOptions& options) {
+std::vector<PlanNode> make_plan(const Place& root, const Recipe& recipe) {
     std::vector<PlanNode> plan(1);
     plan[0].place = root;
-    plan[0].items.resize(boxes.size());
+    plan[0].items.resize(recipe.boxes.size());
     std::iota(plan[0].items.begin(), plan[0].items.end(), 0U);
-    const std::size_t task = std::max(kSmallestTask, boxes.size() / kTasks);
-    Planner planner(boxes, options);
+    const std::size_t task = std::max(kSmallestTask, recipe.boxes.size() / kTasks);
+    Planner planner(recipe);
     for (std::size_t i = 0; i < plan.size(); ++i) {
         if (plan[i].items.size() <= task) continue;
         plan[i].split = planner.try_split(plan[i]);
@@ -105,25 +102,28 @@ std::vector<PlanNode> make_plan(const Place& root, BoxSpan boxes,
     return plan;
 }
 
-void carry_out(std::vector<PlanNode>& plan, BoxSpan boxes, const CompactBuildOptions& options) {
+void carry_out(std::vector<PlanNode>& plan, const Recipe& recipe) {
     std::vector<PlanNode*> tasks;
     for (PlanNode& node : plan)
         if (!node.split) tasks.push_back(&node);
     std::vector<SubtreeBuilder> builders;
-    for (int i = 0; i < options.threads; ++i) builders.emplace_back(boxes, options);
-    for_each_index(options.threads, tasks.size(), [&](std::size_t i, int thread) {
+    for (int i = 0; i < recipe.threads; ++i) builders.emplace_back(recipe);
+    for_each_index(recipe.threads, tasks.size(), [&](std::size_t i, int thread) {
         PlanNode& node = *tasks[i];
         node.subtree = builders[static_cast<std::size_t>(thread)].build(node.place, node.items);
         node.cost = node.subtree.cost;
     });
-    const Prices prices(options.costs);
+    const Prices& prices = recipe.prices;
     for (std::size_t i = plan.size(); i-- > 0;) {
         PlanNode& node = plan[i];
         if (!node.split) continue;
-        node.cost = prices.interior(node.place.voxel);
-        for (unsigned c = 0; c < node.split->octants(); ++c)
-            node.cost += plan[node.first_child + c].cost;
-        const double as_leaf = prices.leaf(node.place.voxel, node.items.size());
+        const double beam = prices.beam(node.place.voxel, node.items.size());
+        node.cost = prices.interior();
+        for (unsigned c = 0; c < node.split->octants(); ++c) {
+            const PlanNode& child = plan[node.first_child + c];
+            node.cost += Prices::share(child.place.voxel, node.place.voxel, beam) * child.cost;
+        }
+        const double as_leaf = prices.leaf(node.items.size());
         if (node.cost < as_leaf) continue;
         node.split.reset();
         const auto count = static_cast<std::uint32_t>(node.items.size());

@@ -16,15 +16,14 @@ struct PlanNode {
     std::optional<Split> split;   ///< none: the root of `subtree`
     std::size_t first_child = 0;  ///< the children stand side by side
     Subtree subtree;
-    double cost = 0;
+    double cost = 0;  ///< of a beam that meets it
 };
 
 /// The upper levels, node 0 the root and every node before its children, cut until no node holds
 /// more than a small share of the items, which does not depend on the number of threads.
-std::vector<PlanNode> make_plan(const Place& root, BoxSpan boxes,
-                                const CompactBuildOptions& options);
+std::vector<PlanNode> make_plan(const Place& root, const Recipe& recipe);
 
 /// Builds the subtrees and takes back what does not pay.
-void carry_out(std::vector<PlanNode>& plan, BoxSpan boxes, const CompactBuildOptions& options);
+void carry_out(std::vector<PlanNode>& plan, const Recipe& recipe);
 
 }  // namespace nuvo

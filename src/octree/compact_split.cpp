@@ -1,6 +1,7 @@
 #include "compact_split.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "box_lanes.h"
 
@@ -64,16 +65,28 @@ std::array<std::size_t, 8> count_octants(const std::uint8_t* masks, std::size_t 
     return counts;
 }
 
-double Prices::after(const Split& split) const {
-    double cost = interior(split.voxel.bounds);
+// Items on surfaces stand the root's width / sqrt(count) apart if they fill it evenly. Up to
+// kEven times as close they count as even: an octant's items are never quite their share.
+double Prices::beam(const Bounds3T<float>& voxel, std::size_t count) const {
+    constexpr double kEven = 4;
+    const double spacing = static_cast<double>(max_norm(voxel.widths())) *
+                           std::sqrt(root_count_ / static_cast<double>(count));
+    return costs_.beam * std::min(root_width_, kEven * spacing);
+}
+
+double Prices::after(const Split& split, std::size_t count) const {
+    const Bounds3T<float>& voxel = split.voxel.bounds;
+    const double width = beam(voxel, count);
+    double cost = interior();
     for (unsigned o = 0; o < 8; ++o)
-        if (split.counts[o] != 0) cost += leaf(octant_box(split.voxel, o), split.counts[o]);
+        if (split.counts[o] != 0)
+            cost += share(octant_box(split.voxel, o), voxel, width) * leaf(split.counts[o]);
     return cost;
 }
 
 bool Prices::worth_trying(const Split& split, std::size_t count) const {
-    const double as_leaf = leaf(split.voxel.bounds, count);
-    const double cost = after(split);
+    const double as_leaf = leaf(count);
+    const double cost = after(split, count);
     if (cost < as_leaf) return true;
     const bool parted =
         std::find(split.counts.begin(), split.counts.end(), count) == split.counts.end();

@@ -31,33 +31,45 @@ struct Split {
 };
 
 /// The surface area heuristic [eq. 10], for beams of rays: a beam meets a voxel as often as a line
-/// meets one that is wider by the beam's width. In units of half the area of a square of width 1.
+/// meets one that is wider by the beam's width. Each price is that of a beam that meets the voxel,
+/// in units of one primitive test.
 class Prices {
   public:
-    explicit Prices(const CompactCosts& costs) : costs_(costs) {}
+    /// `root` and `count`: the whole tree's box and items.
+    Prices(const CompactCosts& costs, const Bounds3T<float>& root, std::size_t count)
+        : costs_(costs),
+          root_width_(static_cast<double>(max_norm(root.widths()))),
+          root_count_(static_cast<double>(count)) {}
 
-    double leaf(const Bounds3T<float>& voxel, std::size_t count) const {
-        return chance(voxel) * (costs_.leaf + static_cast<double>(count));
+    double leaf(std::size_t count) const { return costs_.leaf + static_cast<double>(count); }
+    double interior() const { return costs_.interior; }
+    /// The beam's width at a voxel that holds so many items: where they stand closer than in the
+    /// scene as a whole, cameras that show them apart do so from nearer, with narrower beams.
+    double beam(const Bounds3T<float>& voxel, std::size_t count) const;
+    /// How often a beam of this width that meets the voxel meets an octant of it, too.
+    static double share(const Bounds3T<float>& octant, const Bounds3T<float>& voxel, double beam) {
+        return surface(octant, beam) / surface(voxel, beam);
     }
-    double interior(const Bounds3T<float>& voxel) const { return chance(voxel) * costs_.interior; }
     /// False where a cut cannot pay: it costs a step and saves at most all tests.
     bool may_pay(std::size_t count) const { return static_cast<double>(count) > costs_.interior; }
-    /// Of a cut voxel with the octants taken for leaves.
-    double after(const Split& split) const;
+    /// Of the cut voxel of so many items with the octants taken for leaves.
+    double after(const Split& split, std::size_t count) const;
     /// Whether to go on below the cut of a voxel with so many items: not only where it pays at
     /// once, for items that are large for the voxel are parted by several cuts only.
     bool worth_trying(const Split& split, std::size_t count) const;
 
   private:
-    // Of meeting the voxel, in proportion to half its surface.
-    double chance(const Bounds3T<float>& voxel) const {
-        const double x = static_cast<double>(voxel.max.x - voxel.min.x) + costs_.beam;
-        const double y = static_cast<double>(voxel.max.y - voxel.min.y) + costs_.beam;
-        const double z = static_cast<double>(voxel.max.z - voxel.min.z) + costs_.beam;
+    // Half the surface of the voxel, wider by the beam.
+    static double surface(const Bounds3T<float>& voxel, double beam) {
+        const double x = static_cast<double>(voxel.max.x - voxel.min.x) + beam;
+        const double y = static_cast<double>(voxel.max.y - voxel.min.y) + beam;
+        const double z = static_cast<double>(voxel.max.z - voxel.min.z) + beam;
         return x * y + y * z + z * x;
     }
 
     CompactCosts costs_;
+    double root_width_;
+    double root_count_;
 };
 
 /// Finds which octants of a cut voxel items touch. One for each thread: it keeps its buffers.

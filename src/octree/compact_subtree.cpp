@@ -23,23 +23,23 @@ Subtree SubtreeBuilder::build(const Place& place, ItemSpan items) {
 
 SubtreeBuilder::Built SubtreeBuilder::node(const Place& place, Run run) {
     const std::optional<Split> split = try_split(place, items(run));
-    if (!split) return leaf(place, run);
-    if (split->occupied() == 0) return leaf(place, {run.begin, 0});  // all only came near
+    if (!split) return leaf(run);
+    if (split->occupied() == 0) return leaf({run.begin, 0});  // all only came near
     return interior(place, *split, run);
 }
 
 std::optional<Split> SubtreeBuilder::try_split(const Place& place, ItemSpan items) {
-    return find_split(
-        rule_, prices_, place, items, boxes_, masks_,
-        [&](const CutVoxel& cut, std::uint8_t* masks) { return marker_.mark(cut, items, masks); });
+    return find_split(recipe_, place, items, masks_, [&](const CutVoxel& cut, std::uint8_t* masks) {
+        return marker_.mark(cut, items, masks);
+    });
 }
 
-SubtreeBuilder::Built SubtreeBuilder::leaf(const Place& place, Run run) {
+SubtreeBuilder::Built SubtreeBuilder::leaf(Run run) {
     const auto first = static_cast<std::uint32_t>(out_.items.size());
     const ItemSpan from = items(run);
     out_.items.insert(out_.items.end(), from.begin(), from.end());
     return {CompactNode::leaf(first, static_cast<std::uint32_t>(run.count)),
-            prices_.leaf(place.voxel, run.count)};
+            recipe_.prices.leaf(run.count)};
 }
 
 SubtreeBuilder::Built SubtreeBuilder::interior(const Place& place, const Split& split, Run run) {
@@ -56,18 +56,20 @@ SubtreeBuilder::Built SubtreeBuilder::interior(const Place& place, const Split& 
 
     std::array<CompactNode, 8> children;
     std::size_t built = 0;
-    double cost = prices_.interior(place.voxel);
+    const double beam = recipe_.prices.beam(place.voxel, run.count);
+    double cost = recipe_.prices.interior();
     for (unsigned o = 0; o < 8; ++o) {
         if (split.counts[o] == 0) continue;
-        const Built child = node(place.octant(split, o), {first[o], split.counts[o]});
+        const Place octant = place.octant(split, o);
+        const Built child = node(octant, {first[o], split.counts[o]});
         children[built++] = child.node;
-        cost += child.cost;
+        cost += Prices::share(octant.voxel, place.voxel, beam) * child.cost;
     }
     top_ = top_before;
-    if (cost >= prices_.leaf(place.voxel, run.count)) {
+    if (cost >= recipe_.prices.leaf(run.count)) {
         out_.nodes.resize(nodes_before);
         out_.items.resize(items_before);
-        return leaf(place, run);
+        return leaf(run);
     }
     const Vec3<float>& cut = split.voxel.cut;
     const auto place_of_children = static_cast<std::uint32_t>(out_.nodes.size());

@@ -11,7 +11,7 @@ namespace nuvo {
 /// A finished subtree without its root: nodes and runs, with places that count from 0.
 struct Subtree {
     CompactNode root;
-    double cost = 0;  ///< as Prices gives it
+    double cost = 0;  ///< of a beam that meets it, as Prices gives it
     std::vector<CompactNode> nodes;
     std::vector<std::uint32_t> items;
 };
@@ -19,11 +19,8 @@ struct Subtree {
 /// Builds subtrees one after another. One for each thread: it keeps its buffers.
 class SubtreeBuilder {
   public:
-    SubtreeBuilder(BoxSpan boxes, const CompactBuildOptions& options)
-        : boxes_(boxes),
-          rule_(options.rule),
-          prices_(options.costs),
-          marker_(boxes, options.overlaps) {}
+    explicit SubtreeBuilder(const Recipe& recipe)
+        : recipe_(recipe), marker_(recipe.boxes, recipe.overlaps) {}
 
     Subtree build(const Place& place, ItemSpan items);
 
@@ -38,14 +35,12 @@ class SubtreeBuilder {
         std::size_t count;
     };
     Built node(const Place& place, Run run);
-    Built leaf(const Place& place, Run run);
+    Built leaf(Run run);
     Built interior(const Place& place, const Split& split, Run run);
     std::optional<Split> try_split(const Place& place, ItemSpan items);
     ItemSpan items(Run run) const { return ItemSpan(stack_).subspan(run.begin, run.count); }
 
-    BoxSpan boxes_;
-    CutRule rule_;
-    Prices prices_;
+    Recipe recipe_;
     OctantMarker marker_;
     SplitMasks masks_;
     std::vector<std::uint32_t> stack_;  // items of the voxels between the root and this one

@@ -325,6 +325,27 @@ TEST(CompactBuild, WhatDoesNotPayIsNotKept) {
             }
 }
 
+std::size_t largest_leaf(const CompactOctree& tree) {
+    std::size_t largest = 0;
+    for (const Leaf& leaf : leaves_of(tree)) largest = std::max(largest, leaf.items.size());
+    return largest;
+}
+
+// What a scene is cut into does not depend on how far its floor reaches.
+TEST(CompactBuild, AClusterInAWideSceneIsCutAboutAsFinely) {
+    const std::vector<Box> cluster = random_boxes(16, 4000, 0.01F);
+    for (const CutRule rule : kRules) {
+        const std::size_t alone = largest_leaf(build_compact_octree(cluster, options(rule)));
+        for (const float width : {10.0F, 600.0F, 5000.0F}) {
+            std::vector<Box> boxes = cluster;
+            boxes.push_back({{-width, -0.5F, -width}, {width, -0.5F, width}});
+            const CompactOctree tree = build_compact_octree(boxes, options(rule));
+            EXPECT_LE(largest_leaf(tree), 4 * alone) << width;
+            EXPECT_LT(tree.items.size(), 6 * boxes.size()) << width;
+        }
+    }
+}
+
 TEST(CompactBuild, DearerStepsMakeSmallerTrees) {
     const std::vector<Box> boxes = random_boxes(15, 5000, 0.02F);
     for (const CutRule rule : kRules) {

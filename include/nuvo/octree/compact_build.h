@@ -30,9 +30,9 @@ enum class CutRule : std::uint8_t { kSpatial, kSweep };
 struct CompactCosts {
     double interior = 6;  ///< a step through a node's children
     double leaf = 2;      ///< reaching a leaf
-    /// How wide the beams of rays are for which the tree is built, as a share of the widest side
-    /// of all: a beam meets a voxel as often as a line meets one that is wider by this. 16 of 1080
-    /// pixels of a scene that fills the picture, or a little less.
+    /// The width of the beams for which the tree is built, as a share of the widest side: a beam
+    /// meets a voxel as often as a line meets one wider by this. 16 of 1080 pixels of a scene that
+    /// fills the picture, or less; less in proportion where items stand closer than on the whole.
     double beam = 0.01;
 };
 
