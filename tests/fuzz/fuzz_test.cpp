@@ -48,7 +48,7 @@ TEST(Fuzz, WhatOnceWasFoundStaysMended) {
     }
 }
 
-TEST(Fuzz, DISABLED_RandomScenesAreTheSameByEveryPipeline) {
+TEST(Fuzz, RandomScenesAreTheSameByEveryPipeline) {
     constexpr std::uint64_t kSeed = 20'261'128;
     const fs::path scratch = fs::path(testing::TempDir()) / "nuvo-fuzz";
     fs::create_directories(scratch);
