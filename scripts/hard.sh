@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Hard rays and pictures against exact arithmetic: scripts/hard.sh [--rays N] [--seed S]
-# [--class NAME] [--fast] | --leaks N | --pictures | --scenes N | --lit N | --list. The exit status is 1 where
+# [--class NAME] [--fast] [--solid] | --leaks N | --pictures | --scenes N | --lit N | --list. The exit status is 1 where
 # anything is wrong.
 set -euo pipefail
 source "$(dirname -- "${BASH_SOURCE[0]}")/setup.sh"

@@ -55,13 +55,20 @@ fs::path chosen_picture(const Options& options, const LoadedScene& loaded) {
     return options.out ? fs::path(*options.out) : picture_beside(loaded.path);
 }
 
+// What is to be seen with `profile`, exactly.
+Profile exact_like(const Profile& profile) {
+    Profile exact = exact_profile();
+    exact.back_faces = profile.back_faces;
+    return exact;
+}
+
 // One more picture, of which nothing but the pixels is told.
 image::Difference error_of(const Image& picture, const Scene& scene, const Options& options) {
     Options plain = options;
     plain.counters = false;
     plain.json.reset();
     Image exact;
-    run_pass(scene, plain, exact_profile(), 1, exact);
+    run_pass(scene, plain, exact_like(options.profile), 1, exact);
     return image::compare(picture, exact);
 }
 
@@ -100,6 +107,8 @@ ExitCode render_command(const Options& options) {
     Image picture;
     report.passes.push_back(
         run_pass(loaded.scene, options, options.profile, options.repetitions, picture));
+    for (const std::string& remark : report.passes.back().remarks)
+        std::cerr << "nuvo: note: " << remark << '\n';
     if (options.error) report.error = error_of(picture, loaded.scene, options);
     const StageStopwatch write;
     image::write_bmp(picture_path, picture);
@@ -125,8 +134,8 @@ ExitCode compare_command(const Options& options) {
             run_pass(loaded.scene, options, profile, 1, pictures.emplace_back()));
     }
     if (options.profile.tracer == TracerChoice::kTiles) {
-        report.passes.push_back(
-            run_pass(loaded.scene, options, exact_profile(), 1, pictures.emplace_back()));
+        report.passes.push_back(run_pass(loaded.scene, options, exact_like(options.profile), 1,
+                                         pictures.emplace_back()));
         report.passes.back().name = "serial";
     }
     if (options.compare_brute_force) {

@@ -124,8 +124,10 @@ constexpr std::size_t kMostBytes = 1'000'000'000'000;
 std::vector<Flag> scene_flags() {
     const x3d::Limits standard;
     return {
-        {"viewpoint", "--viewpoint", "NAME|N", "",
-         "the camera: a Viewpoint's DEF or description, or its number from 1; else the first",
+        {"viewpoint", "--viewpoint", "NAME|N|standard|fit", "",
+         "the camera: a Viewpoint's DEF or description, or its number from 1; the standard's at "
+         "0 0 10; or one that shows the whole scene; else the first Viewpoint, or where there is "
+         "none the standard's if it shows the scene well, else the fitted one",
          [](Options& o, const std::string& v) { o.viewpoint = non_empty(v, "a name or number"); }},
         {"defaults", "--defaults", joined_names(kDefaults), "by profile",
          "what stands in for missing fields: the standard's, or the published program's, which "
@@ -247,6 +249,11 @@ std::vector<Flag> profile_flags() {
          }},
         {"bias", "--bias", "exact|B", "by profile",
          "where shadow rays start: on the surface itself, or B along its normal", apply_bias},
+        {"back-faces", "--back-faces", joined_names(kBackFaces), "by profile",
+         "of shapes with solid=\"true\": invisible to the camera and to lights, or drawn",
+         [](Options& o, const std::string& v) {
+             o.profile.back_faces = parse_choice(kBackFaces, v);
+         }},
     };
 }
 

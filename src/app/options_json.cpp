@@ -39,6 +39,7 @@ void write_profile(JsonWriter& json, const Options& options) {
     number_or_exact("step", profile.step);
     json.member("precision", name_of(kPrecisions, profile.precision));
     number_or_exact("bias", profile.bias);
+    json.member("back_faces", name_of(kBackFaces, profile.back_faces));
     json.member("defaults", name_of(kDefaults, options.defaults));
     json.member("headlight", name_of(kHeadlights, options.headlight));
     json.end_object();

@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "nuvo/app/choices.h"
+#include "remarks.h"
 
 namespace nuvo::app {
 namespace {
@@ -85,6 +86,8 @@ Pass run_repeatedly(const Scene& scene, const Options& options, const Profile& p
     pass.process = process.elapsed();
     run->describe(pass);
     if (options.counters || options.json) run->count(pass, options.resolution);
+    pass.remarks = remarks(scene, profile, picture,
+                           [&](std::span<const Ray> rays) { return run->answers(rays); });
     return pass;
 }
 
@@ -110,6 +113,7 @@ Pass answer_once(const Scene& scene, const Options& options, std::span<const Ray
 FastOptions fast_options(const Options& options, const Profile& profile) {
     FastOptions fast;
     fast.type = profile.type;
+    fast.back_faces = profile.back_faces;
     fast.isa =
         options.isa == InstructionSet::kBest ? supported_instruction_sets().front() : options.isa;
     fast.threads = options.threads > 0

@@ -177,7 +177,9 @@ std::string profile_flags_text(const Options& options) {
     std::string text = "--profile=" + options.profile_name;
     text += " --tracer=" + std::string(name_of(kTracers, profile.tracer));
     if (!options.compare) text += " --type=" + std::string(name_of(kOctreeTypes, profile.type));
-    if (profile.tracer == TracerChoice::kTiles) return text;  // the other answers are its own
+    const std::string back_faces =
+        " --back-faces=" + std::string(name_of(kBackFaces, profile.back_faces));
+    if (profile.tracer == TracerChoice::kTiles) return text + back_faces;  // the others are its own
     if (options.compare || profile.type == OctreeType::kNonuniform)
         text += " --midpoint=" + std::string(name_of(kMidpoints, profile.midpoint));
     if (profile.max_objects) {
@@ -190,6 +192,7 @@ std::string profile_flags_text(const Options& options) {
     text += profile.step ? format(" --step=%g", *profile.step) : " --step=exact";
     text += " --precision=" + std::string(name_of(kPrecisions, profile.precision));
     text += profile.bias ? format(" --bias=%g", *profile.bias) : " --bias=exact";
+    text += back_faces;
     if (options.defaults != &x3d::standard_defaults)
         text += " --defaults=" + std::string(name_of(kDefaults, options.defaults));
     return text;

@@ -6,6 +6,8 @@
 #include "nuvo/app/clocks.h"
 #include "nuvo/app/commands.h"
 #include "nuvo/image/file_writer.h"
+#include "nuvo/scene/framing.h"
+#include "text.h"
 
 namespace nuvo::app {
 namespace {
@@ -24,6 +26,46 @@ std::string one_line(std::string text) {
     return text;
 }
 
+const char* fault_of(Framing framing) {
+    switch (framing) {
+        case Framing::kNothing:
+            return "no ray of the standard's meets anything";
+        case Framing::kCut:
+            return "the standard's cuts the scene off";
+        case Framing::kTiny:
+            return "the standard's shows the scene tiny";
+        case Framing::kGood:
+            break;
+    }
+    return "the standard's shows the scene";
+}
+
+/// Puts the camera of a file that has none where it shows the scene, if the standard's does not.
+void place_camera(const Options& options, LoadedScene& loaded) {
+    Scene& scene = loaded.scene;
+    if (scene.camera_given || options.rays || options.viewpoint == x3d::kStandardView) return;
+    const bool asked = options.viewpoint == x3d::kFittedView;
+    const Framing now = framing(scene, scene.camera, options.resolution);
+    if (now == Framing::kGood && !asked) return;
+    const std::optional<Camera> fitted = fitted_camera(scene);
+    if (!fitted) return;
+    scene.camera = *fitted;
+    if (!scene.lights.empty() && !scene.lights.back().casts_shadow)
+        scene.lights.back().direction = fitted->forward;  // the headlight
+    if (asked) return;
+    Bounds3 box;
+    for (const Object& object : scene.objects) box = box.extended(bounds(object.shape));
+    const Point3& p = fitted->position;
+    std::cerr << "nuvo: note: " << loaded.path.string() << ": has no Viewpoint, and "
+              << fault_of(now)
+              << format(
+                     ": the shapes lie between %.6g %.6g %.6g and %.6g %.6g %.6g, the camera is "
+                     "fitted to them, at %.6g %.6g %.6g (--viewpoint=standard leaves it)",
+                     box.min.x, box.min.y, box.min.z, box.max.x, box.max.y, box.max.z, p.x, p.y,
+                     p.z)
+              << '\n';
+}
+
 }  // namespace
 
 LoadedScene load(const Options& options) {
@@ -36,6 +78,7 @@ LoadedScene load(const Options& options) {
     loaded.parse_seconds = watch.seconds();
     for (const std::string& warning : loaded.scene.warnings)
         std::cerr << "nuvo: warning: " + one_line(loaded.path.string() + ": " + warning) + '\n';
+    place_camera(options, loaded);
     return loaded;
 }
 

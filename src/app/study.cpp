@@ -82,6 +82,7 @@ StudyCase study_case(const Combination& combination, const Profile& given) {
         arguments.push_back(std::move(word));
     }
     StudyCase result{std::string(combination.profile), change, parse(arguments).profile};
+    result.answers.back_faces = given.back_faces;  // what is seen; the study is about how well
     if (change.find("--type=") == std::string::npos) result.answers.type = given.type;
     if (result.answers.tracer == TracerChoice::kTiles) return result;
     result.answers.midpoint = given.midpoint;
@@ -107,6 +108,7 @@ void measure_tiles(const Scene& scene, Resolution resolution, StudyRow& row, Tru
     const Primitives primitives = flatten(scene, LeafContent::kPrimitives);
     FastOptions options;
     options.type = row.what.answers.type;
+    options.back_faces = row.what.answers.back_faces;
     FastTracer tracer(scene, primitives, options);
     row.build_seconds.push_back(build.seconds());
     const StageStopwatch trace;

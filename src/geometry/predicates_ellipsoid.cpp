@@ -83,10 +83,11 @@ RoundedQuadratic rounded_quadratic(const ExactRay& ray, const Ellipsoid& ellipso
 
 }  // namespace detail
 
-std::optional<SphereHit> hit(const ExactRay& ray, const Ellipsoid& ellipsoid, StageCounts& counts) {
+std::optional<SphereHit> hit(const ExactRay& ray, const Ellipsoid& ellipsoid, StageCounts& counts,
+                             Sides sides) {
     using namespace detail;
     SphereHit hit;
-    switch (rounded_hit(rounded_quadratic(ray, ellipsoid), hit)) {
+    switch (rounded_hit(rounded_quadratic(ray, ellipsoid), sides, hit)) {
         case Decision::kNo:
             return std::nullopt;
         case Decision::kYes:
@@ -96,11 +97,11 @@ std::optional<SphereHit> hit(const ExactRay& ray, const Ellipsoid& ellipsoid, St
     }
     ++counts.wider;
     ++counts.exact;
-    return exact_hit(exact_quadratic(ray, ellipsoid));
+    return exact_hit(exact_quadratic(ray, ellipsoid), sides);
 }
 
 bool blocks(const ExactRay& shadow, double end, double origin_error, const Ellipsoid& ellipsoid,
-            bool origin_on_it, StageCounts& counts) {
+            bool origin_on_it, StageCounts& counts, Sides sides) {
     using namespace detail;
     RoundedQuadratic q = rounded_quadratic(shadow, ellipsoid);
     const BoundedMatrix adjugate = bounded_adjugate(ellipsoid.linear);
@@ -114,14 +115,16 @@ bool blocks(const ExactRay& shadow, double end, double origin_error, const Ellip
     const double size = sum(rho_bound);
     q.c_error += gamma(32) * origin_error * size * (sum(magnitude(q.f)) + origin_error * size) +
                  2 * origin_error * size * q.offset_error;
-    const Decision decision = rounded_blocks(q, end, band, origin_on_it);
+    const Decision decision = rounded_blocks(q, end, band, origin_on_it, sides);
     if (decision != Decision::kUnsure) return decision == Decision::kYes;
     ++counts.wider;
     ++counts.exact;
     const ExactQuadratic exact = exact_quadratic(shadow, ellipsoid);
-    return exact_blocks(exact, end, origin_place(exact, origin_on_it, [&] {
-                            return exact_touch_band(shadow, ellipsoid, origin_error);
-                        }));
+    return exact_blocks(
+        exact, end,
+        origin_place(exact, origin_on_it,
+                     [&] { return exact_touch_band(shadow, ellipsoid, origin_error); }),
+        sides);
 }
 
 namespace {

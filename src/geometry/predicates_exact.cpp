@@ -90,11 +90,12 @@ Root root_from(const WideDouble& t) {
             rounded * (1 + kRelative) + kUnderflow};
 }
 
-std::optional<SphereHit> exact_hit(const ExactQuadratic& q) {
+std::optional<SphereHit> exact_hit(const ExactQuadratic& q, Sides sides) {
     if (q.empty || q.a.sign() == 0) return std::nullopt;
     const int b = q.b.sign();
     const int c = q.c.sign();
     if (c >= 0 && b >= 0) return std::nullopt;
+    if (c <= 0 && sides == Sides::kFront) return std::nullopt;
     const Exact discriminant = q.discriminant();
     if (discriminant.sign() < 0) return std::nullopt;
     // |b| + sqrt(b^2 - a c) has no cancellation; it and c give both roots.
@@ -104,7 +105,7 @@ std::optional<SphereHit> exact_hit(const ExactQuadratic& q) {
     return SphereHit{root_from(far), SphereRoot::kFar};
 }
 
-bool exact_blocks(const ExactQuadratic& q, double end, OriginPlace place) {
+bool exact_blocks(const ExactQuadratic& q, double end, OriginPlace place, Sides sides) {
     if (q.empty || q.a.sign() == 0) return false;
     const int b = q.b.sign();
     const bool endless = std::isinf(end);
@@ -119,7 +120,8 @@ bool exact_blocks(const ExactQuadratic& q, double end, OriginPlace place) {
     if (b >= 0 || q.discriminant().sign() < 0) return false;
     if (endless) return true;
     const int slope = (Exact(end) * q.a + q.b).sign();
-    if (touches) return slope > 0 && end_is_outside();
+    // What is touched, and the front that the end sees, blocks by its far root.
+    if (touches || sides == Sides::kFront) return slope > 0 && end_is_outside();
     // The near root lies before the end iff the end lies inside, or behind the vertex.
     return slope > 0 || (Exact(end) * (Exact(end) * q.a + Exact(2) * q.b) + q.c).sign() < 0;
 }

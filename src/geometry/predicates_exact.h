@@ -38,7 +38,7 @@ ExactQuadratic exact_quadratic(const ExactRay& ray, const Ellipsoid& ellipsoid);
 Exact exact_touch_band(const ExactRay& ray, const Sphere& sphere, double origin_error);
 Exact exact_touch_band(const ExactRay& ray, const Ellipsoid& ellipsoid, double origin_error);
 
-std::optional<SphereHit> exact_hit(const ExactQuadratic& q);
+std::optional<SphereHit> exact_hit(const ExactQuadratic& q, Sides sides);
 /// What the origin has to do with the surface: it stands for a point of it, it may, or it does not.
 enum class OriginPlace : std::uint8_t { kOnIt, kTouching, kClear };
 /// `touch_band()`: what the origin's error can add to |c|.
@@ -47,7 +47,7 @@ OriginPlace origin_place(const ExactQuadratic& q, bool on_it, TouchBand&& touch_
     if (on_it) return OriginPlace::kOnIt;
     return compare(abs(q.c), touch_band()) <= 0 ? OriginPlace::kTouching : OriginPlace::kClear;
 }
-bool exact_blocks(const ExactQuadratic& q, double end, OriginPlace place);
+bool exact_blocks(const ExactQuadratic& q, double end, OriginPlace place, Sides sides);
 /// p + t r at the root, to a few roundoffs of p's and r's shares (p - b / a r and sqrt(D) / a r).
 Vec3<WideDouble> at_root(const ExactQuadratic& q, SphereRoot which, const ExactVector& p,
                          const ExactVector& r);

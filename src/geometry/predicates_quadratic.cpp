@@ -38,11 +38,13 @@ RoundedEnd rounded_end(const RoundedQuadratic& q, double end) {
 
 }  // namespace
 
-Decision rounded_hit(const RoundedQuadratic& q, SphereHit& hit) {
+Decision rounded_hit(const RoundedQuadratic& q, Sides sides, SphereHit& hit) {
     const bool outside = q.c > q.c_error;
     if (outside && (q.b > q.b_error || q.depth < -q.depth_error)) return Decision::kNo;
     const bool enters = outside && q.b < -q.b_error && q.depth > q.depth_error;
     const bool inside = q.c < -q.c_error;
+    // The far root is seen from within; to meet the near one the origin has to lie outside.
+    if (sides == Sides::kFront && (inside || q.b > q.b_error)) return Decision::kNo;
     if (!enters && !inside) return Decision::kUnsure;
     constexpr double kShare = 0.4375 * root_tolerance();  // two of these and some roundings
     const RootPart root = root_part(q);
@@ -81,7 +83,8 @@ Decision passes_through(const RoundedQuadratic& q, const RoundedEnd& end) {
 
 }  // namespace
 
-Decision rounded_blocks(const RoundedQuadratic& q, double end_t, double band, bool on_it) {
+Decision rounded_blocks(const RoundedQuadratic& q, double end_t, double band, bool on_it,
+                        Sides sides) {
     const RoundedEnd end = rounded_end(q, end_t);
     const double size = std::fabs(q.c);
     if (on_it) {
@@ -98,10 +101,13 @@ Decision rounded_blocks(const RoundedQuadratic& q, double end_t, double band, bo
     if (q.c < 0) return end.endless ? Decision::kYes : decide(end.power, end.power_error);
     if (q.b > q.b_error || q.depth < -q.depth_error) return Decision::kNo;
     if (!(q.b < -q.b_error && q.depth > q.depth_error)) return Decision::kUnsure;
-    if (end.endless || end.slope > end.slope_error || end.power < -end.power_error)
+    if (end.endless) return Decision::kYes;
+    // The front that the end sees is where the way leaves the solid: at the far root.
+    if (end.power < -end.power_error) return sides == Sides::kBoth ? Decision::kYes : Decision::kNo;
+    const bool ends_outside = end.power > end.power_error;
+    if (end.slope > end.slope_error && (ends_outside || sides == Sides::kBoth))
         return Decision::kYes;
-    return end.slope < -end.slope_error && end.power > end.power_error ? Decision::kNo
-                                                                       : Decision::kUnsure;
+    return end.slope < -end.slope_error && ends_outside ? Decision::kNo : Decision::kUnsure;
 }
 
 RoundedOffset rounded_offset(const RoundedQuadratic& q, SphereRoot which) {

@@ -25,9 +25,10 @@ RoundedQuadratic rounded_quadratic(const ExactRay& ray, const Ellipsoid& ellipso
 enum class Decision : std::uint8_t { kNo, kYes, kUnsure };
 
 /// kYes fills `hit`.
-Decision rounded_hit(const RoundedQuadratic& q, SphereHit& hit);
+Decision rounded_hit(const RoundedQuadratic& q, Sides sides, SphereHit& hit);
 /// `band`: what the origin's error can add to |c|; `on_it`: the origin stands for a point of it.
-Decision rounded_blocks(const RoundedQuadratic& q, double end, double band, bool on_it);
+Decision rounded_blocks(const RoundedQuadratic& q, double end, double band, bool on_it,
+                        Sides sides);
 
 /// f + t g with its error in 2-norm.
 struct RoundedOffset {

@@ -33,10 +33,10 @@ RoundedQuadratic rounded_quadratic(const ExactRay& ray, const Sphere& sphere) {
     return q;
 }
 
-std::optional<SphereHit> sphere_hit(const ExactRay& ray, const Sphere& sphere,
+std::optional<SphereHit> sphere_hit(const ExactRay& ray, const Sphere& sphere, Sides sides,
                                     StageCounts& counts) {
     SphereHit hit;
-    switch (rounded_hit(rounded_quadratic(ray, sphere), hit)) {
+    switch (rounded_hit(rounded_quadratic(ray, sphere), sides, hit)) {
         case Decision::kNo:
             return std::nullopt;
         case Decision::kYes:
@@ -46,11 +46,11 @@ std::optional<SphereHit> sphere_hit(const ExactRay& ray, const Sphere& sphere,
     }
     ++counts.wider;
     ++counts.exact;
-    return exact_hit(exact_quadratic(ray, sphere));
+    return exact_hit(exact_quadratic(ray, sphere), sides);
 }
 
 bool sphere_blocks(const ExactRay& shadow, double end, double origin_error, const Sphere& sphere,
-                   bool origin_on_it, StageCounts& counts) {
+                   bool origin_on_it, Sides sides, StageCounts& counts) {
     const RoundedQuadratic rounded = rounded_quadratic(shadow, sphere);
     const double band =
         origin_error *
@@ -59,14 +59,16 @@ bool sphere_blocks(const ExactRay& shadow, double end, double origin_error, cons
     // The band itself is rounded: let c's bound carry that.
     RoundedQuadratic q = rounded;
     q.c_error += gamma(8) * band;
-    const Decision decision = rounded_blocks(q, end, band, origin_on_it);
+    const Decision decision = rounded_blocks(q, end, band, origin_on_it, sides);
     if (decision != Decision::kUnsure) return decision == Decision::kYes;
     ++counts.wider;
     ++counts.exact;
     const ExactQuadratic exact = exact_quadratic(shadow, sphere);
-    return exact_blocks(exact, end, origin_place(exact, origin_on_it, [&] {
-                            return exact_touch_band(shadow, sphere, origin_error);
-                        }));
+    return exact_blocks(
+        exact, end,
+        origin_place(exact, origin_on_it,
+                     [&] { return exact_touch_band(shadow, sphere, origin_error); }),
+        sides);
 }
 
 }  // namespace detail

@@ -46,20 +46,28 @@ Outcome try_blocks(const ExactRay& shadow, double end, double origin_error,
                                                                           : Outcome::kUnsure;
 }
 
-/// Signs of the edge functions U, V, W, found one by one.
+/// Signs of the edge functions U, V, W, found one by one. The one that does not count is treated as
+/// if its opposite had been found.
 struct EdgeSigns {
+    explicit EdgeSigns(Crossing crossing)
+        : positive(crossing == Crossing::kIn), negative(crossing == Crossing::kOut) {}
+
     bool known[3] = {false, false, false};
-    bool positive = false;
-    bool negative = false;
+    bool positive;
+    bool negative;
+    bool any = false;
 
     void set(int edge, int sign) {
         known[edge] = true;
         positive = positive || sign > 0;
         negative = negative || sign < 0;
+        any = any || sign != 0;
     }
     bool decided() const { return (positive && negative) || (known[0] && known[1] && known[2]); }
     /// All zero: the line lies in the plane, or there is no plane.
-    LineTest answer() const { return positive != negative ? LineTest::kMeets : LineTest::kMisses; }
+    LineTest answer() const {
+        return any && !(positive && negative) ? LineTest::kMeets : LineTest::kMisses;
+    }
 };
 
 /// Finds the unknown signs that T's roundings leave sure.
@@ -165,9 +173,10 @@ bool ends_in_plane(const ExactRay& way, double end, const Triangle& t, StageCoun
 
 }  // namespace
 
-LineTest line_test_alone(const ExactRay& ray, double end, const Triangle& t, StageCounts& counts) {
+LineTest line_test_alone(const ExactRay& ray, double end, const Triangle& t, Crossing crossing,
+                         StageCounts& counts) {
     if (std::isfinite(ray.edge_error())) ++counts.wider;
-    EdgeSigns signs;
+    EdgeSigns signs(crossing);
     add_signs<double>(ray, t, signs);
     if (signs.decided()) return signs.answer();
     return slow_line_test(ray, end, t, signs, counts);

@@ -52,12 +52,13 @@ class ExactKernelOf {
     };
     static constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-    ExactKernelOf(const Scene& scene, const Primitives& primitives, std::optional<double> bias)
-        : ExactKernelOf(scene, primitives, triangle_bounds(scene, primitives), bias) {}
+    ExactKernelOf(const Scene& scene, const Primitives& primitives, std::optional<double> bias,
+                  BackFaces back_faces = BackFaces::kSolid)
+        : ExactKernelOf(scene, primitives, triangle_bounds(scene, primitives), bias, back_faces) {}
     /// `triangles` is what triangle_bounds() found.
     ExactKernelOf(const Scene& scene, const Primitives& primitives, const Bounds3& triangles,
-                  std::optional<double> bias)
-        : store_(scene, primitives), triangles_(triangles), bias_(bias) {}
+                  std::optional<double> bias, BackFaces back_faces = BackFaces::kSolid)
+        : store_(scene, primitives, back_faces), triangles_(triangles), bias_(bias) {}
 
     const PrimitiveSource& source(PrimitiveId id) const { return store_.source(id); }
     const StageCounts& stage_counts() const { return counts_; }
@@ -68,7 +69,9 @@ class ExactKernelOf {
 
     /// The nearest hit on one primitive.
     std::optional<Hit> hit_of(const ExactRay& ray, PrimitiveId id) const {
-        return store_.visit(id, [&](const auto& primitive) { return hit_on(ray, primitive, id); });
+        return store_.visit_faces(id, [&](const auto& primitive, Faces faces) {
+            return hit_on(ray, primitive, faces, id);
+        });
     }
     /// Replaces `best` by the nearest hit on the primitives of `range` if that is nearer, or as
     /// near and earlier in the document.
@@ -164,22 +167,23 @@ class ExactKernelOf {
     double shadow_t(const Shadow& shadow, PrimitiveRange range) const {
         double nearest = kInfinity;
         for (PrimitiveId id = range.first; id < range.last; ++id) {
-            if (!blocks_before(shadow, kInfinity, id)) continue;
-            const std::optional<Hit> hit = hit_of(shadow.ray, id);
-            if (hit) nearest = std::fmin(nearest, hit->root.t);
+            if (blocks_before(shadow, kInfinity, id))
+                nearest = std::fmin(nearest, blocking_t(shadow.ray, id));
         }
         return nearest;
     }
 
   private:
-    std::optional<Hit> hit_on(const ExactRay& ray, const Triangle& triangle, PrimitiveId id) const {
-        const std::optional<Root> root = hit(ray, triangle, counts_);
+    std::optional<Hit> hit_on(const ExactRay& ray, const Triangle& triangle, Faces faces,
+                              PrimitiveId id) const {
+        const std::optional<Root> root = hit(ray, triangle, counts_, faces.sides);
         if (!root) return std::nullopt;
         return Hit{id, *root};
     }
     template <typename Quadric>
-    std::optional<Hit> hit_on(const ExactRay& ray, const Quadric& quadric, PrimitiveId id) const {
-        const std::optional<SphereHit> found = hit(ray, quadric, counts_);
+    std::optional<Hit> hit_on(const ExactRay& ray, const Quadric& quadric, Faces faces,
+                              PrimitiveId id) const {
+        const std::optional<SphereHit> found = hit(ray, quadric, counts_, faces.sides);
         if (!found) return std::nullopt;
         return Hit{id, found->root, found->which};
     }
@@ -195,14 +199,33 @@ class ExactKernelOf {
         });
     }
 
+    // Where a shadow ray meets a primitive that blocks it.
+    double blocking_t(const ExactRay& ray, PrimitiveId id) const {
+        return store_.visit(id, [&](const auto& primitive) {
+            if constexpr (std::is_same_v<std::decay_t<decltype(primitive)>, Triangle>) {
+                const std::optional<Root> root = hit(ray, primitive, counts_);
+                return root ? root->t : kInfinity;
+            } else {
+                if (store_.faces(id).sides == Sides::kFront) {  // where it leaves the solid
+                    const Point3 exit = surface_point(ray, primitive, SphereRoot::kFar).point;
+                    return dot(exit - ray.origin(), ray.direction()) / ray.square();
+                }
+                const std::optional<SphereHit> found = hit(ray, primitive, counts_);
+                return found ? found->root.t : kInfinity;
+            }
+        });
+    }
+
     bool blocks_before(const Shadow& shadow, double end, PrimitiveId id) const {
         const bool self = shadow.from && *shadow.from == id;
-        return store_.visit(id, [&](const auto& primitive) {
+        return store_.visit_faces(id, [&](const auto& primitive, Faces faces) {
+            if (!faces.cast_shadows) return false;
             if constexpr (std::is_same_v<std::decay_t<decltype(primitive)>, Triangle>)
-                return !self &&
-                       nuvo::blocks(shadow.ray, end, shadow.origin_error, primitive, counts_);
+                return !self && nuvo::blocks(shadow.ray, end, shadow.origin_error, primitive,
+                                             counts_, faces.sides);
             else
-                return nuvo::blocks(shadow.ray, end, shadow.origin_error, primitive, self, counts_);
+                return nuvo::blocks(shadow.ray, end, shadow.origin_error, primitive, self, counts_,
+                                    faces.sides);
         });
     }
 

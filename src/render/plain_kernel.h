@@ -51,8 +51,9 @@ class PlainKernel {
     };
     static constexpr T kInfinity = std::numeric_limits<T>::infinity();
 
-    PlainKernel(const Scene& scene, const Primitives& primitives, std::optional<double> bias)
-        : store_(scene, primitives, Triangles(holds_runs(primitives))), bias_(bias) {}
+    PlainKernel(const Scene& scene, const Primitives& primitives, std::optional<double> bias,
+                BackFaces back_faces = BackFaces::kSolid)
+        : store_(scene, primitives, back_faces, Triangles(holds_runs(primitives))), bias_(bias) {}
 
     const PrimitiveSource& source(PrimitiveId id) const { return store_.source(id); }
 
@@ -63,7 +64,7 @@ class PlainKernel {
     const RayT<T>& nudged_ray(const RayT<T>& ray) const { return ray; }
 
     void closest(const RayT<T>& ray, PrimitiveRange range, std::optional<Hit>& best) const {
-        for_each_hit(ray, range, [&](PrimitiveId id, const plain::Hit<T>& hit) {
+        for_each_hit<false>(ray, range, [&](PrimitiveId id, const plain::Hit<T>& hit) {
             if (!best || hit.t < best->t || (hit.t == best->t && id < best->primitive))
                 best = Hit{id, hit.t, hit.uv};
         });
@@ -101,7 +102,8 @@ class PlainKernel {
     /// Where the shadow ray first meets the range, before or behind the light; infinity: never.
     T shadow_t(const Shadow& shadow, PrimitiveRange range) const {
         T nearest = kInfinity;
-        for_each_hit(shadow.ray, range, [&](PrimitiveId id, const plain::Hit<T>& hit) {
+        for_each_hit<true>(shadow.ray, range, [&](PrimitiveId id, const plain::Hit<T>& hit) {
+            if (!store_.faces(id).cast_shadows) return;
             const bool self = shadow.from && *shadow.from == id;
             nearest = std::min(nearest, self ? other_root(shadow.ray, id) : hit.t);
         });
@@ -109,27 +111,36 @@ class PlainKernel {
     }
 
   private:
-    // Calls `use(id, hit)` for each primitive of the range that the ray hits.
-    template <typename Use>
+    // Calls `use(id, hit)` for each primitive of the range that the ray hits. What of a solid shape
+    // is seen the ray enters; what a light sees a shadow ray leaves.
+    template <bool kToLight, typename Use>
     void for_each_hit(const RayT<T>& ray, PrimitiveRange range, Use&& use) const {
         store_.for_each_run(
             range,
             [&](const Triangles& triangles, std::size_t index, PrimitiveRange run) {
-                triangles.for_each_hit(ray, index, index + (run.last - run.first),
-                                       [&](std::size_t i, const plain::Hit<T>& hit) {
-                                           use(static_cast<PrimitiveId>(run.first + (i - index)),
-                                               hit);
-                                       });
+                triangles.for_each_hit(
+                    ray, index, index + (run.last - run.first),
+                    [&](std::size_t i, const plain::Hit<T>& hit) {
+                        const auto id = static_cast<PrimitiveId>(run.first + (i - index));
+                        if (hit.front != kToLight || store_.faces(id).sides == Sides::kBoth)
+                            use(id, hit);
+                    });
             },
             [&](PrimitiveId id, const auto& primitive) {
-                if (const std::optional<plain::Hit<T>> hit = test(ray, primitive)) use(id, *hit);
+                const plain::Met met = store_.faces(id).sides == Sides::kBoth ? plain::Met::kFirst
+                                       : kToLight                             ? plain::Met::kExit
+                                                                              : plain::Met::kEntry;
+                if (const std::optional<plain::Hit<T>> hit = test(ray, primitive, met))
+                    use(id, *hit);
             });
     }
-    static std::optional<plain::Hit<T>> test(const RayT<T>& ray, const PlainSphere& p) {
-        return plain::hit(ray, p.center, p.radius);
+    static std::optional<plain::Hit<T>> test(const RayT<T>& ray, const PlainSphere& p,
+                                             plain::Met met) {
+        return plain::hit(ray, p.center, p.radius, met);
     }
-    static std::optional<plain::Hit<T>> test(const RayT<T>& ray, const PlainEllipsoid& p) {
-        return plain::hit(ray, p);
+    static std::optional<plain::Hit<T>> test(const RayT<T>& ray, const PlainEllipsoid& p,
+                                             plain::Met met) {
+        return plain::hit(ray, p, met);
     }
 
     // [eq. 47]

@@ -4,19 +4,40 @@
 #include <utility>
 #include <vector>
 
+#include "nuvo/geometry/predicates.h"
 #include "nuvo/render/primitives.h"
+#include "nuvo/render/profile.h"
 
 namespace nuvo {
+
+/// What is there of a surface.
+struct Faces {
+    Sides sides;        ///< to be seen
+    bool cast_shadows;  ///< those that a light sees
+};
+
+/// Of a shape under that rule.
+inline Sides sides_of(const Object& object, BackFaces back_faces) {
+    return object.solid && back_faces == BackFaces::kSolid ? Sides::kFront : Sides::kBoth;
+}
 
 /// The scene itself as a store: nothing is copied, a triangle is put together when it is asked for.
 class SceneStore {
   public:
-    SceneStore(const Scene& scene, const Primitives& primitives)
-        : scene_(scene), sources_(primitives.sources) {}
+    SceneStore(const Scene& scene, const Primitives& primitives, BackFaces back_faces)
+        : scene_(scene), sources_(primitives.sources), back_faces_(back_faces) {}
 
     const PrimitiveSource& source(PrimitiveId id) const { return sources_[id]; }
+    Faces faces(PrimitiveId id) const {
+        return {sides_of(object(id), back_faces_), object(id).casts_shadow};
+    }
 
-    /// Calls `use` with the triangle, sphere or ellipsoid of that id.
+    /// Calls `use` with the triangle, sphere or ellipsoid of that id, and what is there of it.
+    template <typename Use>
+    auto visit_faces(PrimitiveId id, Use&& use) const {
+        const Faces there = faces(id);
+        return visit(id, [&](const auto& primitive) { return use(primitive, there); });
+    }
     template <typename Use>
     auto visit(PrimitiveId id, Use&& use) const {
         const PrimitiveSource& source = sources_[id];
@@ -30,8 +51,11 @@ class SceneStore {
     }
 
   private:
+    const Object& object(PrimitiveId id) const { return scene_.objects[sources_[id].object]; }
+
     const Scene& scene_;
     const BigVector<PrimitiveSource>& sources_;
+    BackFaces back_faces_;
 };
 
 /// The primitives' coordinates side by side, one array a kind, found by PrimitiveId. A kind that
@@ -40,22 +64,34 @@ class SceneStore {
 template <typename TriangleList, typename SphereT, typename EllipsoidT>
 class PrimitiveStore {
   public:
-    PrimitiveStore(const Scene& scene, const Primitives& primitives, TriangleList empty = {})
+    PrimitiveStore(const Scene& scene, const Primitives& primitives, BackFaces back_faces,
+                   TriangleList empty = {})
         : sources_(primitives.sources), triangles_(std::move(empty)) {
         slots_.reserve(sources_.size());
-        for (const PrimitiveSource& source : sources_) add(scene.objects[source.object], source);
+        for (const PrimitiveSource& source : sources_) {
+            const Object& object = scene.objects[source.object];
+            add(object, source);
+            if (sides_of(object, back_faces) == Sides::kFront) slots_.back() |= kFrontOnly;
+            if (!object.casts_shadow) slots_.back() |= kShadowless;
+        }
     }
 
     const PrimitiveSource& source(PrimitiveId id) const { return sources_[id]; }
+    Faces faces(PrimitiveId id) const { return faces_of(slots_[id]); }
 
-    /// Calls `use` with the triangle, sphere or ellipsoid of that id.
+    /// Calls `use` with the triangle, sphere or ellipsoid of that id, and what is there of it.
     template <typename Use>
-    auto visit(PrimitiveId id, Use&& use) const {
+    auto visit_faces(PrimitiveId id, Use&& use) const {
         const std::uint32_t slot = slots_[id];
         const std::uint32_t index = slot & kIndexMask;
-        if (slot < kSphere) return use(triangles_[index]);
-        if (slot < kEllipsoid) return use(spheres_[index]);
-        return use(ellipsoids_[index]);
+        const Faces faces = faces_of(slot);
+        if (slot < kSphere) return use(triangles_[index], faces);
+        if (slot < kEllipsoid) return use(spheres_[index], faces);
+        return use(ellipsoids_[index], faces);
+    }
+    template <typename Use>
+    auto visit(PrimitiveId id, Use&& use) const {
+        return visit_faces(id, [&](const auto& primitive, Faces) { return use(primitive); });
     }
 
     /// The range in order: `use_triangles(list, index, run)` for each run of triangles, which stand
@@ -67,7 +103,7 @@ class PrimitiveStore {
             const std::uint32_t slot = slots_[id];
             if (slot < kSphere) {
                 const PrimitiveId end = end_of_triangles(id, range.last);
-                use_triangles(triangles_, slot, PrimitiveRange{id, end});
+                use_triangles(triangles_, slot & kIndexMask, PrimitiveRange{id, end});
                 id = end;
             } else {
                 if (slot < kEllipsoid)
@@ -88,10 +124,16 @@ class PrimitiveStore {
         return id;
     }
 
-    // A slot is an index with its kind in the two highest bits.
+    static Faces faces_of(std::uint32_t slot) {
+        return {static_cast<Sides>(slot / kFrontOnly & 1), (slot & kShadowless) == 0};
+    }
+
+    // A slot is an index with its kind in the two highest bits, and what holds for its shape.
     static constexpr std::uint32_t kSphere = 1U << 30;
     static constexpr std::uint32_t kEllipsoid = 2U << 30;
-    static constexpr std::uint32_t kIndexMask = kSphere - 1;
+    static constexpr std::uint32_t kFrontOnly = 1U << 29;
+    static constexpr std::uint32_t kShadowless = 1U << 28;
+    static constexpr std::uint32_t kIndexMask = kShadowless - 1;
 
     void add(const Object& object, const PrimitiveSource& source) {
         if (const auto* mesh = std::get_if<TriangleMesh>(&object.shape)) {

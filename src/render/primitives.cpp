@@ -105,6 +105,7 @@ Primitives flatten(const Scene& scene, LeafContent leaves) {
             out.sources.push_back({i, 0});
         }
         summarizer.add(kind_of(shape));
+        out.all_cast_shadows &= scene.objects[i].casts_shadow;
     }
     out.item_first.push_back(static_cast<PrimitiveId>(out.sources.size()));
     return out;

@@ -23,6 +23,7 @@ Profile thesis_profile() {
     profile.step = kThesisStep;
     profile.precision = Precision::kFloat;
     profile.bias = kThesisBias;
+    profile.back_faces = BackFaces::kDraw;
     return profile;
 }
 

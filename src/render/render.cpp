@@ -106,13 +106,13 @@ auto with_kernel(const Scene& scene, const Primitives& primitives, const Profile
                  Use&& use) {
     switch (profile.precision) {
         case Precision::kFloat:
-            return use(PlainKernel<float>(scene, primitives, profile.bias));
+            return use(PlainKernel<float>(scene, primitives, profile.bias, profile.back_faces));
         case Precision::kDouble:
-            return use(PlainKernel<double>(scene, primitives, profile.bias));
+            return use(PlainKernel<double>(scene, primitives, profile.bias, profile.back_faces));
         case Precision::kExact:
             break;
     }
-    return use(ExactKernel(scene, primitives, profile.bias));
+    return use(ExactKernel(scene, primitives, profile.bias, profile.back_faces));
 }
 
 // Calls `use(search)` with the search that the profile's walk and step ask for.

@@ -130,6 +130,7 @@ NodeKind node_kind(std::string_view name) {
         {"LayoutGroup", NodeKind::kGroup},
         {"LayoutLayer", NodeKind::kGroup},
         {"NavigationInfo", NodeKind::kNavigationInfo},
+        {"OrthoViewpoint", NodeKind::kViewpoint},
         {"PickableGroup", NodeKind::kGroup},
         {"PointLight", NodeKind::kPointLight},
         {"ScreenGroup", NodeKind::kGroup},

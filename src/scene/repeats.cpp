@@ -63,9 +63,14 @@ bool same_surface(const Shape& a, const Shape& b) {
     return mesh.triangles == other.triangles && mesh.positions == other.positions;
 }
 
+bool hides(const Object& earlier, const Object& later) {
+    return (later.solid || !earlier.solid) && (earlier.casts_shadow || !later.casts_shadow) &&
+           same_surface(earlier.shape, later.shape);
+}
+
 }  // namespace
 
-bool Repeats::is_repeat(const Shape& shape, const std::vector<Object>& objects) {
+bool Repeats::is_repeat(const Object& object, const std::vector<Object>& objects) {
     if (2 * (used_ + 1) > slots_.size()) {
         constexpr std::size_t kFirstSize = 64;  // a power of two, as all are
         const std::vector<Slot> old =
@@ -73,11 +78,10 @@ bool Repeats::is_repeat(const Shape& shape, const std::vector<Object>& objects) 
         for (const Slot& slot : old)
             if (slot.object != kFree) insert(slot);
     }
-    const std::uint64_t hash = hash_of(shape);
+    const std::uint64_t hash = hash_of(object.shape);
     const std::size_t mask = slots_.size() - 1;
     for (std::size_t i = hash & mask; slots_[i].object != kFree; i = (i + 1) & mask)
-        if (slots_[i].hash == hash && same_surface(objects[slots_[i].object].shape, shape))
-            return true;
+        if (slots_[i].hash == hash && hides(objects[slots_[i].object], object)) return true;
     insert({hash, static_cast<std::uint32_t>(objects.size())});
     ++used_;
     return false;

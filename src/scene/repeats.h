@@ -9,12 +9,13 @@ namespace nuvo::x3d {
 
 /// Finds shapes that stand exactly where an earlier one stands. They are never seen, as of two hits
 /// at equal distance the earlier wins, but each would cost every ray a test: a thousand USEs of a
-/// sphere in one place are one sphere.
+/// sphere in one place are one sphere. One whose back is seen, or which casts a shadow, is hidden
+/// by its like only.
 class Repeats {
   public:
-    /// True when one of `objects` has the same surface as `shape`, to the last bit; else notes
-    /// `shape` as the one that will be appended to `objects` next.
-    bool is_repeat(const Shape& shape, const std::vector<Object>& objects);
+    /// True when one of `objects` has the same surface as `object`, to the last bit; else notes
+    /// `object` as the one that will be appended to `objects` next.
+    bool is_repeat(const Object& object, const std::vector<Object>& objects);
 
   private:
     struct Slot {

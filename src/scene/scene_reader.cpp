@@ -32,12 +32,14 @@ void SceneReader::find_camera_first(const Element& scene) {
     read_children(scene, {});
     messages_.set_muted(false);
     looking_for_camera_ = false;
-    has_viewpoint_ = false;
+    scene_.camera_given = false;
     scene_.viewpoints.clear();
 }
 
 void SceneReader::check_viewpoint() const {
-    if (has_viewpoint_ || options_.viewpoint.empty()) return;
+    const std::string& wanted = options_.viewpoint;
+    if (scene_.camera_given || wanted.empty() || wanted == kStandardView || wanted == kFittedView)
+        return;
     std::string names;
     for (const std::string& name : scene_.viewpoints) names += " " + excerpt(name);
     throw Error(file_ + ": has no Viewpoint \"" + excerpt(options_.viewpoint) + "\" among its " +
@@ -194,7 +196,10 @@ void SceneReader::read_shape(const Element& node, Group& group) {
     if (!material || geometry == nullptr) return;
     std::optional<Shape> shape = read_geometry(*geometry, group.placement);
     if (!shape) return;
-    if (options_.defaults.drops_repeats && repeats_.is_repeat(*shape, scene_.objects)) {
+    Object object{std::move(*shape), *material, shape_index};
+    object.solid = Fields(*geometry, messages_).boolean("solid", !geometry->name.ends_with("2D"));
+    object.casts_shadow = Fields(node, messages_).boolean("castShadow", true);
+    if (options_.defaults.drops_repeats && repeats_.is_repeat(object, scene_.objects)) {
         messages_.warn(geometry->name, "exactly where an earlier one is, so never seen, left out",
                        node);
         return;
@@ -202,9 +207,7 @@ void SceneReader::read_shape(const Element& node, Group& group) {
     if (materials_.is_of_no_node(*material))
         messages_.warn(node.name, "without a Material drawn unlit, white or in colors of its own",
                        node);
-    const bool solid =
-        Fields(*geometry, messages_).boolean("solid", !geometry->name.ends_with("2D"));
-    scene_.objects.push_back({std::move(*shape), *material, shape_index, solid});
+    scene_.objects.push_back(std::move(object));
 }
 
 // The published program's own scenes have it there.
@@ -264,9 +267,10 @@ void SceneReader::add_light(Light::Kind kind, const Element& node, Group& group)
 void SceneReader::read_viewpoint_node(const Element& node, Group& group) {
     if (inline_depth_ > 0) return;
     scene_.viewpoints.push_back(viewpoint_name(node, scene_.viewpoints.size() + 1));
-    if (has_viewpoint_ || !is_wanted(node, scene_.viewpoints.size(), options_.viewpoint)) return;
+    if (scene_.camera_given || !is_wanted(node, scene_.viewpoints.size(), options_.viewpoint))
+        return;
     scene_.camera = read_viewpoint(Fields(node, messages_), group.placement, options_.defaults);
-    has_viewpoint_ = true;
+    scene_.camera_given = true;
 }
 
 void SceneReader::read_background_node(const Element& node) {

@@ -77,7 +77,6 @@ class SceneReader {
     std::vector<const Element*> light_nodes_;  // beside scene_.lights
     // Of several bindable nodes of a kind the first in the document counts, or the Viewpoint that
     // was asked for.
-    bool has_viewpoint_ = false;
     bool has_background_ = false;
     std::optional<bool> headlight_;
 };

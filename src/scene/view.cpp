@@ -1,6 +1,7 @@
 #include "view.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 namespace nuvo::x3d {
@@ -23,16 +24,40 @@ void match(const Fields& fields, std::string_view angle_field, std::vector<Color
     }
 }
 
+/// The extents that an OrthoViewpoint shows: left, bottom, right, top.
+OrthoWindow read_window(const Fields& fields, double scale) {
+    const auto window = [scale](const std::vector<double>& sides) {
+        return OrthoWindow{{sides[0] * scale, sides[1] * scale},
+                           {sides[2] * scale, sides[3] * scale}};
+    };
+    const OrthoWindow standard = window({-1, -1, 1, 1});
+    const std::vector<double> sides = fields.numbers("fieldOfView");
+    if (sides.empty()) return standard;
+    constexpr std::size_t kSides = 4;
+    if (sides.size() == kSides) {
+        const OrthoWindow given = window(sides);
+        const double wide = given.high.x - given.low.x;
+        const double high = given.high.y - given.low.y;
+        if (wide > 0 && high > 0 && std::isfinite(wide) && std::isfinite(high)) return given;
+    }
+    fields.reject("fieldOfView", "is not left, bottom, right and top of some extent");
+    return standard;
+}
+
 }  // namespace
 
 Camera read_viewpoint(const Fields& fields, const Placement& placement, const Defaults& defaults) {
     Camera camera;
     const Affine3& to_world = placement.to_world;
     camera.position = to_world.point(fields.vector("position", camera.position));
-    camera.field_of_view_rad = fields.number("fieldOfView", defaults.field_of_view_rad);
-    if (!(camera.field_of_view_rad > 0 && camera.field_of_view_rad < std::numbers::pi)) {
-        fields.reject("fieldOfView", "is not between 0 and pi");
-        camera.field_of_view_rad = defaults.field_of_view_rad;
+    if (fields.element().name == "OrthoViewpoint") {
+        camera.window = read_window(fields, placement.length_scale);
+    } else {
+        camera.field_of_view_rad = fields.number("fieldOfView", defaults.field_of_view_rad);
+        if (!(camera.field_of_view_rad > 0 && camera.field_of_view_rad < std::numbers::pi)) {
+            fields.reject("fieldOfView", "is not between 0 and pi");
+            camera.field_of_view_rad = defaults.field_of_view_rad;
+        }
     }
     const Matrix3 orientation = fields.rotation("orientation");
     const Vector3 forward = normalized(to_world.vector(orientation * Vector3{0, 0, -1}));

@@ -11,7 +11,8 @@
 
 namespace nuvo::x3d {
 
-/// Reads a Viewpoint in world space. Scales move it but do not distort the view.
+/// Reads a Viewpoint or an OrthoViewpoint in world space. Scales move it but do not distort the
+/// view.
 Camera read_viewpoint(const Fields& fields, const Placement& placement, const Defaults& defaults);
 
 /// The name of a Viewpoint: its DEF, else its description, else its number.

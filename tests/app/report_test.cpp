@@ -94,9 +94,9 @@ TEST(Report, TheErrorIsToldInTextAndJson) {
 
 TEST(Report, ProfileAnswersAreTheFlagsThatGiveThem) {
     const std::vector<std::string> arguments{
-        "--profile=thesis",   "--tracer=serial", "--type=nonuniform", "--midpoint=sweep",
-        "--costs=thesis",     "--leaves=shapes", "--walk=descent",    "--step=0.25",
-        "--precision=double", "--bias=0.5",      "--defaults=thesis"};
+        "--profile=thesis",   "--tracer=serial", "--type=nonuniform",  "--midpoint=sweep",
+        "--costs=thesis",     "--leaves=shapes", "--walk=descent",     "--step=0.25",
+        "--precision=double", "--bias=0.5",      "--back-faces=solid", "--defaults=thesis"};
     std::string expected;
     for (const std::string& argument : arguments)
         expected += (expected.empty() ? "" : " ") + argument;
@@ -105,7 +105,7 @@ TEST(Report, ProfileAnswersAreTheFlagsThatGiveThem) {
 
 TEST(Report, TheAnswersOfTheTileTracerAreItsOwn) {
     EXPECT_EQ(profile_flags_text(parse({"--profile=fast", "--type=nonuniform"})),
-              "--profile=fast --tracer=tiles --type=nonuniform");
+              "--profile=fast --tracer=tiles --type=nonuniform --back-faces=solid");
 }
 
 Report tile_example() {

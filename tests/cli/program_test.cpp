@@ -200,14 +200,17 @@ TEST_F(Program, RaysAreAnsweredLineForLine) {
         "5 5 10 0 0 -1\n\n"     // past everything
         "1.5 -1.75 8 0 0 -1\n"  // the square's first triangle at z = -2
         "-1.5 1.75 8 0 0 -4\n"  // and its second
-        "0 0 0 0 0 1\n");       // from the sphere's centre
-    const std::string expected = "1 0 0 9\n1 0 0 4.5\n0 -1 -1 inf\n1 1 0 10\n1 1 1 2.5\n1 0 0 1\n";
+        "0 0 0 0 0 1\n");       // from the sphere's centre, where it shows its back
+    const std::string fronts = "1 0 0 9\n1 0 0 4.5\n0 -1 -1 inf\n1 1 0 10\n1 1 1 2.5\n";
+    const std::string expected = fronts + "0 -1 -1 inf\n";
     for (const char* type : {"--type=uniform", "--type=nonuniform"}) {
         const Outcome outcome = run({"--file=a", "--rays=rays", type});
         EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
         EXPECT_EQ(outcome.out, expected);
         EXPECT_EQ(run({"--file=a", "--rays=rays", type, "--out=answers"}).exit_code, 0);
         EXPECT_EQ(content("answers"), expected);
+        EXPECT_EQ(run({"--file=a", "--rays=rays", type, "--back-faces=draw"}).out,
+                  fronts + "1 0 0 1\n");
     }
     EXPECT_FALSE(exists("a.bmp"));
 }

@@ -23,20 +23,27 @@ constexpr Pixel kGreenCenter{160, 120, 0, 255, 0};
 // about (x, 0, 0) near (0.9 x, 0, 1), so that N.L is about sqrt(1 - (0.1 x)^2). view3dscene 4.2.0
 // and X_ITE 15 draw the same.
 const Case kCases[] = {
+    {"castShadow_false", "", {{200, 120, 231, 231, 231}}},
     {"empty_attribute", "Transform@scale: 1 left out", {{160, 120, 204, 255, 204}}},
     {"grid_without_heights", "Shape: 1 left out", {kGreenCenter}},
     {"group_espdutransform", "", {kGreenCenter}},
     {"group_hanim", "", {kGreenCenter}},
     {"group_layerset", "", {kGreenCenter}},
     {"group_pickablegroup", "", {kGreenCenter}},
+    {"lamp_in_its_bulb", "", {{200, 120, 231, 231, 231}}},  // N.L = 3 / sqrt(9 + 1.39 x 1.39)
     {"no_points_yet", "Shape: 1 left out", {kGreenCenter}},
     {"normalIndex_minus_one_per_face", "normalIndex", {{120, 120, 255, 255, 255}}},
+    {"nothing_in_view", "the shapes lie between 58 -2 -2 and 62 2 2", {{160, 120, 0, 255, 0}}},
     {"one_lower_case_node", "appearance: 1 read as Appearance", {{247, 120, 0, 245, 0}}},
     {"proto_instance", "", {kGreenCenter}},
     {"root_x3d_lower_case", "x3d: 1 read as X3D", {kGreenCenter}},
     {"script_field_use_of_nothing", "Script: 1 not drawn", {kGreenCenter}},
     {"script_field_uses_ancestor", "Script: 1 not drawn", {kGreenCenter}},
     {"script_field_uses_itself", "Script: 1 not drawn", {kGreenCenter}},
+    {"solid_box_from_inside",
+     "the camera stands inside Shape 0",
+     {{160, 120, 0, 0, 255}, {5, 5, 0, 0, 255}}},
+    {"solid_mesh_wound_inwards", "", {{160, 120, 204, 204, 204}, {5, 5, 0, 0, 255}}},
     {"too_few_colors", "Color: 1 left out", {kGreenCenter}},
     {"unit_angle_degree", "", {kGreenCenter, {5, 5, 0, 0, 255}}},
     {"unit_angle_fov", "", {kGreenCenter, {5, 5, 0, 0, 255}}},

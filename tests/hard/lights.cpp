@@ -94,7 +94,10 @@ void light_from_hard_places(Scene& scene, Aims& aims, Random& random) {
     sun.direction[random.below(3)] = random.sign();
     if (random.chance()) sun.direction = random.unit();
     scene.lights.push_back(sun);
-    for (Object& object : scene.objects) object.solid = random.chance();
+    for (Object& object : scene.objects) {
+        object.solid = random.chance();
+        object.casts_shadow = random.below(8) != 0;
+    }
     scene.materials[0].specular_color = {0.3, 0.3, 0.3};
     scene.materials[0].ambient_intensity = 1;
 }
@@ -104,6 +107,7 @@ void light_richly(Scene& scene, Aims& aims, Random& random) {
     for (Object& object : scene.objects) {
         object.material = static_cast<std::uint32_t>(scene.materials.size());
         object.solid = random.chance();
+        object.casts_shadow = random.below(8) != 0;
         scene.materials.push_back(any_material(random));
         auto* mesh = std::get_if<TriangleMesh>(&object.shape);
         if (mesh != nullptr && random.chance()) paint(*mesh, random);

@@ -22,6 +22,7 @@ constexpr const char* kUsage =
     "  --scenes=N     instead: N scenes of the classes, lit from hard places, against the "
     "reference\n"
     "  --fast         with --rays: by the fast tracer's single rays\n"
+    "  --solid        with --rays: of every other shape only the front is there\n"
     "  --precision=P  exact, double or float tests, to see the oracle find their errors (exact)\n"
     "  --lit=N        instead: N scenes with every kind of light and material against the "
     "reference\n"
@@ -54,6 +55,7 @@ bool read_flag(const std::string& flag, Flags& flags) {
     if (name == "--list") return flags.list = true;
     if (name == "--pictures") return flags.pictures = true;
     if (name == "--fast") return flags.run.fast = true;
+    if (name == "--solid") return flags.run.solid = true;
     if (name == "--write-scenes") return flags.write_scenes = true;
     if (name == "--help" || name == "-h") return flags.help = true;
     if (name == "--class") {

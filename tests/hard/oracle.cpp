@@ -44,14 +44,15 @@ Vec3<Integer> on_grid(const Vector3& v, int grid) {
     return {on_grid(v.x, grid), on_grid(v.y, grid), on_grid(v.z, grid)};
 }
 
-// The hit point x = o + t d lies in the plane and on the inner side of each edge, or on it.
-std::optional<OracleRoot> meet(const OracleRay& ray, const Triangle& triangle) {
+// The hit point x = o + t d lies in the plane and on the inner side of each edge, or on it. Of a
+// solid the ray meets the side from which the corners run counterclockwise.
+std::optional<OracleRoot> meet(const OracleRay& ray, const Triangle& triangle, bool solid) {
     const Vec3<Integer> a = on_grid(triangle.a, ray.grid) - ray.origin;
     const Vec3<Integer> b = on_grid(triangle.b, ray.grid) - ray.origin;
     const Vec3<Integer> c = on_grid(triangle.c, ray.grid) - ray.origin;
     const Vec3<Integer> normal = cross(b - a, c - a);
     Integer denominator = dot(normal, ray.direction);
-    if (denominator == 0) return std::nullopt;
+    if (denominator == 0 || (solid && denominator > 0)) return std::nullopt;
     Integer numerator = dot(normal, a);
     if (denominator < 0) {
         denominator = -denominator;
@@ -70,13 +71,15 @@ std::optional<OracleRoot> meet(const OracleRay& ray, const Triangle& triangle) {
     return root;
 }
 
-// The first root > 0 of |f + t g|^2 = r^2.
-std::optional<OracleRoot> meet(const Vec3<Integer>& f, const Vec3<Integer>& g, const Integer& r) {
+// The first root > 0 of |f + t g|^2 = r^2; of a solid from outside only.
+std::optional<OracleRoot> meet(const Vec3<Integer>& f, const Vec3<Integer>& g, const Integer& r,
+                               bool solid) {
     const Integer a = dot(g, g);
     const Integer b = dot(f, g);
     const Integer c = dot(f, f) - r * r;
     if (a == 0 || r == 0) return std::nullopt;
     if (b >= 0 && c >= 0) return std::nullopt;  // no root is positive
+    if (solid && c <= 0) return std::nullopt;
     const Integer discriminant = b * b - a * c;
     if (discriminant < 0) return std::nullopt;
     OracleRoot found;
@@ -111,13 +114,13 @@ bool share_a_root(const OracleRoot& p, const OracleRoot& q) {
     return outer * outer == 4 * (p.a * q.b - q.a * p.b) * (p.b * q.c - q.b * p.c);
 }
 
-std::optional<OracleRoot> meet(const OracleRay& ray, const Sphere& sphere) {
+std::optional<OracleRoot> meet(const OracleRay& ray, const Sphere& sphere, bool solid) {
     return meet(ray.origin - on_grid(sphere.center, ray.grid), ray.direction,
-                on_grid(sphere.radius, ray.grid));
+                on_grid(sphere.radius, ray.grid), solid);
 }
 
 // In the space of the sphere, all times the determinant.
-std::optional<OracleRoot> meet(const OracleRay& ray, const Ellipsoid& ellipsoid) {
+std::optional<OracleRoot> meet(const OracleRay& ray, const Ellipsoid& ellipsoid, bool solid) {
     const Matrix3& m = ellipsoid.linear;
     const int grid =
         std::min({0, lowest_bit(m.row[0]), lowest_bit(m.row[1]), lowest_bit(m.row[2])});
@@ -131,7 +134,7 @@ std::optional<OracleRoot> meet(const OracleRay& ray, const Ellipsoid& ellipsoid)
                              dot(dual[2], v) << -grid};
     };
     return meet(local(ray.origin - on_grid(ellipsoid.center, ray.grid)), local(ray.direction),
-                determinant * on_grid(ellipsoid.radius, ray.grid));
+                determinant * on_grid(ellipsoid.radius, ray.grid), solid);
 }
 
 }  // namespace
@@ -168,10 +171,11 @@ Oracle::Oracle(const Scene& scene) : scene_(scene), grid_(0), sieve_(scene) {
 std::optional<OracleRoot> Oracle::root(const OracleRay& ray, std::size_t object,
                                        std::size_t triangle) const {
     const Shape& shape = scene_.objects[object].shape;
+    const bool solid = scene_.objects[object].solid;
     if (const auto* mesh = std::get_if<TriangleMesh>(&shape))
-        return meet(ray, mesh->triangle(triangle));
-    if (const auto* sphere = std::get_if<Sphere>(&shape)) return meet(ray, *sphere);
-    return meet(ray, std::get<Ellipsoid>(shape));
+        return meet(ray, mesh->triangle(triangle), solid);
+    if (const auto* sphere = std::get_if<Sphere>(&shape)) return meet(ray, *sphere, solid);
+    return meet(ray, std::get<Ellipsoid>(shape), solid);
 }
 
 std::optional<OracleAnswer> Oracle::closest(const OracleRay& ray) const {

@@ -100,6 +100,7 @@ Matrix3 distortion(Random& random) {
 void add(Scene& scene, Shape shape) {
     Object object;
     object.shape = std::move(shape);
+    object.solid = false;
     object.shape_index = static_cast<std::uint32_t>(scene.objects.size());
     scene.objects.push_back(std::move(object));
     scene.materials = {Material{}};

@@ -22,7 +22,7 @@ Matrix3 scaling(const Vector3& factors);
 /// A linear map that is no similarity: scaled, sheared, mirrored, turned; some nearly flat.
 Matrix3 distortion(Random& random);
 
-/// Adds the shape with its place in document order.
+/// Adds the shape with its place in document order, both of its sides visible.
 void add(Scene& scene, Shape shape);
 /// All coordinates times `scale`, then moved, then held as the input may hold them.
 void place(Scene& scene, const Random& random, double scale, const Vector3& move);

@@ -46,7 +46,10 @@ int fast_differences(const Scene& scene, const Image& exact) {
     int differing = 0;
     for (const OctreeType type : {OctreeType::kUniform, OctreeType::kNonuniform})
         for (const InstructionSet isa : supported_instruction_sets()) {
-            FastTracer tracer(scene, primitives, {type, 1, isa});
+            FastOptions options;
+            options.type = type;
+            options.isa = isa;
+            FastTracer tracer(scene, primitives, options);
             const Image image = tracer.render({exact.width(), exact.height()});
             for (std::size_t i = 0; i < exact.pixels().size(); ++i)
                 differing += image.pixels()[i] == exact.pixels()[i] ? 0 : 1;

@@ -14,9 +14,16 @@ const Digits& none() {
     static const Digits value("1e-45");
     return value;
 }
-// Nearer to an end of the shadow ray than this part of it lies only what touches that end.
+// Nearer to the lit point than this part of the shadow ray lies only what touches it.
 const Digits& touch() {
     static const Digits value("1e-30");
+    return value;
+}
+
+// The same for the light, whose place is not computed: a light in doubles may be as near to a
+// sphere as 1e-32 and not touch it.
+const Digits& touch_of_light() {
+    static const Digits value("1e-40");
     return value;
 }
 
@@ -26,6 +33,10 @@ Digits size(const DigitsVector& v) {
 Long rounded(const DigitsVector& v) {
     return {static_cast<long double>(v.x), static_cast<long double>(v.y),
             static_cast<long double>(v.z)};
+}
+Digits along_normal(const DigitsVector& v, const Triangle& t) {
+    const DigitsVector a(t.a);
+    return dot(v, cross(DigitsVector(t.b) - a, DigitsVector(t.c) - a));
 }
 DigitsVector unit(const DigitsVector& v) { return v / Digits(sqrt(dot(v, v))); }
 
@@ -128,11 +139,15 @@ std::optional<Reference::Meeting> Reference::nearest(const Line& line) const {
     sieve_.each(rounded(line.origin), rounded(line.direction), kSlack,
                 [&](std::size_t object, std::size_t triangle) {
                     const Shape& shape = scene_.objects[object].shape;
+                    const bool solid = scene_.objects[object].solid;
                     if (const auto* mesh = std::get_if<TriangleMesh>(&shape)) {
-                        if (const auto at = plane(line, mesh->triangle(triangle)))
+                        const Triangle t = mesh->triangle(triangle);
+                        const auto at = plane(line, t);
+                        if (at && !(solid && along_normal(line.direction, t) > 0))
                             take(object, triangle, at->x);
                     } else if (const auto found = roots(line, shape)) {
-                        take(object, triangle, found->first > 0 ? found->first : found->second);
+                        take(object, triangle,
+                             found->first > 0 || solid ? found->first : found->second);
                     }
                 });
     if (best) finish(line, *best);
@@ -185,18 +200,25 @@ bool Reference::blocked(const Meeting& meeting, const Line& shadow, bool endless
     constexpr long double kSlack = 1e-13L;
     const Digits least =
         endless ? Digits(touch() * size(meeting.point) + touch() * meeting.t) : touch();
-    const auto between = [&](const Digits& t) { return t > least && (endless || t < 1 - touch()); };
+    const auto between = [&](const Digits& t) {
+        return t > least && (endless || t < 1 - touch_of_light());
+    };
     bool found = false;
     sieve_.each(rounded(shadow.origin), rounded(shadow.direction), kSlack,
                 [&](std::size_t object, std::size_t triangle) {
                     if (found) return;
                     const Shape& shape = scene_.objects[object].shape;
+                    const bool solid = scene_.objects[object].solid;
+                    if (!scene_.objects[object].casts_shadow) return;
+                    // The light sees the front of what the way to it leaves.
                     if (const auto* mesh = std::get_if<TriangleMesh>(&shape)) {
                         if (object == meeting.object && triangle == meeting.triangle) return;
-                        const auto at = plane(shadow, mesh->triangle(triangle));
-                        found = at && between(at->x);
+                        const Triangle t = mesh->triangle(triangle);
+                        const auto at = plane(shadow, t);
+                        found = at && between(at->x) &&
+                                !(solid && along_normal(shadow.direction, t) < 0);
                     } else if (const auto two = roots(shadow, shape)) {
-                        found = between(two->first) || between(two->second);
+                        found = (!solid && between(two->first)) || between(two->second);
                     }
                 });
     return found;

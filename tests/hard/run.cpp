@@ -101,7 +101,10 @@ Tally run_batch(const HardClass& hard_class, const Batch& batch, const RunOption
                 std::ostream& faults) {
     const auto kind = static_cast<Coordinates>(batch.number % 3);
     Random random(mixed_seed(options.seed, batch.class_index, batch.number), kind);
-    const Scene scene = hard_class.scene(random);
+    Scene scene = hard_class.scene(random);
+    if (options.solid)
+        for (std::size_t i = 0; i < scene.objects.size(); ++i)
+            scene.objects[i].solid = (i + batch.number) % 2 == 0;
     Profile profile = any_profile(random, hard_class.deep_trees);
     profile.precision = options.precision;
     const Primitives primitives = flatten(scene, profile.leaves);

@@ -42,7 +42,8 @@ struct RunOptions {
     unsigned threads = 0;                     ///< 0: as many as the machine has
     Precision precision = Precision::kExact;  ///< the others, to show that errors are found
     int rays_per_scene = 400;
-    bool fast = false;  ///< the fast tracer's single rays, with each instruction set in turn
+    bool solid = false;  ///< of every other object only the front is there
+    bool fast = false;   ///< the fast tracer's single rays, with each instruction set in turn
 };
 
 /// Compares one scene's answers; each that is wrong is printed with its numbers.

@@ -164,12 +164,13 @@ TEST(SlotOrder, DoesNotChangeThePicture) {
     }
     const Primitives primitives = flatten(scene, LeafContent::kPrimitives);
     const Image expected = exact_picture(scene, primitives, {90, 70});
-    for (const InstructionSet isa : supported_instruction_sets())
-        EXPECT_EQ(
-            difference(
-                expected,
-                FastTracer(scene, primitives, {OctreeType::kUniform, 2, isa}).render({90, 70})),
-            "");
+    for (const InstructionSet isa : supported_instruction_sets()) {
+        FastOptions options;
+        options.threads = 2;
+        options.isa = isa;
+        EXPECT_EQ(difference(expected, FastTracer(scene, primitives, options).render({90, 70})),
+                  "");
+    }
 }
 
 }  // namespace

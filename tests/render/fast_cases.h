@@ -216,6 +216,7 @@ class SceneMaker {
         }
         object.material = static_cast<std::uint32_t>(below(4));
         object.solid = chance();
+        object.casts_shadow = below(8) != 0;
         return object;
     }
 

@@ -244,13 +244,14 @@ TEST(ShadowPlanes, NeverContradictTheExactPredicateWhereTheyAreSure) {
             const float p[3] = {static_cast<float>(local.x), static_cast<float>(local.y),
                                 static_cast<float>(local.z)};
             const float error = tables.plane_error() + static_cast<float>(2 * kFloatRoundoff);
-            const float depth = hidden(tables.planes(l)[slot], p);
+            const float depth = tables.hides(l, slot) ? hidden(tables.planes(l)[slot], p) : -1;
             if (std::fabs(depth) <= error) continue;
             const bool endless = light.kind == Light::Kind::kDirectional;
             const ExactRay way = endless ? ExactRay(Ray{point, -light.direction})
                                          : ExactRay::between(point, light.location);
             const double end = endless ? std::numeric_limits<double>::infinity() : 1;
-            ASSERT_EQ(depth > 0, blocks(way, end, 0, triangle, counts))
+            const Sides sides = scene.objects[source.object].solid ? Sides::kFront : Sides::kBoth;
+            ASSERT_EQ(depth > 0, blocks(way, end, 0, triangle, counts, sides))
                 << "seed " << seed << ", pair " << i << ", light " << l;
             ++sure[depth > 0 ? 1 : 0];
         }

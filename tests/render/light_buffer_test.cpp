@@ -92,11 +92,13 @@ class Occlusion {
                                      : ExactRay::between(from, light.location);
         const double end = endless ? std::numeric_limits<double>::infinity() : 1;
         const PrimitiveSource& source = fast_.source(slot);
-        const Shape& shape = scene_.objects[source.object].shape;
+        const Object& object = scene_.objects[source.object];
+        const Sides sides = object.solid ? Sides::kFront : Sides::kBoth;
+        const Shape& shape = object.shape;
         if (const auto* mesh = std::get_if<TriangleMesh>(&shape))
-            return nuvo::blocks(way, end, 0, mesh->triangle(source.triangle), counts_);
+            return nuvo::blocks(way, end, 0, mesh->triangle(source.triangle), counts_, sides);
         if (const auto* sphere = std::get_if<Sphere>(&shape))
-            return nuvo::blocks(way, end, 0, *sphere, false, counts_);
+            return nuvo::blocks(way, end, 0, *sphere, false, counts_, sides);
         return false;
     }
 

@@ -100,9 +100,13 @@ TEST(Picture, AZeroNormalFallsBackToTheGeometricOne) {
     EXPECT_EQ(middle_pixel(scene), 255);
 }
 
-TEST(Picture, TheBackIsLitOnlyWhereTheShapeIsNotSolid) {
+TEST(Picture, TheBackIsSeenOnlyWhereTheShapeIsNotSolid) {
     Scene scene = one_triangle(-10);
-    EXPECT_EQ(middle_pixel(scene), 0);
+    scene.background.sky_color = {{0.2, 0, 0}};
+    EXPECT_EQ(middle_pixel(scene), 51);
+    Profile drawn = exact_profile();
+    drawn.back_faces = BackFaces::kDraw;
+    EXPECT_EQ(picture(scene, drawn, {1, 1}).at(0, 0).r, 0);  // and unlit
     scene.objects[0].solid = false;
     EXPECT_EQ(middle_pixel(scene), std::lround(255 * 0.9 / std::sqrt(0.9)));
 }

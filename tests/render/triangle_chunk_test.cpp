@@ -24,6 +24,7 @@ Scene scene_of_many_meshes(unsigned seed) {
     for (int i = 0; i < 300; ++i) {
         if (i % 7 == 3) {
             scene.objects.push_back({Sphere{point(), 0.1}});
+            scene.objects.back().solid = i % 2 == 0;
             continue;
         }
         TriangleMesh mesh;
@@ -31,6 +32,7 @@ Scene scene_of_many_meshes(unsigned seed) {
         for (std::size_t k = 0; k < count + 2; ++k) mesh.positions.push_back(point());
         for (std::uint32_t k = 0; k < count; ++k) mesh.triangles.push_back({k + 2, k, k + 1});
         scene.objects.push_back({mesh});
+        scene.objects.back().solid = i % 2 == 0;
     }
     Light sun;
     sun.direction = {0.6, 0, -0.8};
@@ -105,18 +107,26 @@ TEST_F(TriangleChunkTest, TablesDoNotDependOnWhenAndByHowManyTheyAreFilled) {
         ShadowTables shadow_later(fast_, isa, threads, TableFilling::kLater);
         ShadingTables shading_later(fast_, rays, camera_later.spheres, isa, TableFilling::kLater);
         fill_tables(fast_, threads, camera_later, shadow_later, shading_later);
-        EXPECT_TRUE(same_bytes(camera.triangles, camera_later.triangles));
+        EXPECT_TRUE(same_bytes(camera.boxes, camera_later.boxes));
+        for (Slot slot = 0; slot < fast_.triangle_end(); ++slot) {
+            if (scene_.objects[fast_.source(slot).object].solid) continue;  // some backs have none
+            ASSERT_EQ(std::memcmp(&camera.triangles[slot], &camera_later.triangles[slot],
+                                  sizeof(CameraTriangle)),
+                      0);
+        }
         ASSERT_EQ(camera.spheres.size(), camera_later.spheres.size());
         for (std::size_t i = 0; i < camera.spheres.size(); ++i) {
             EXPECT_EQ(camera.spheres[i].radius, camera_later.spheres[i].radius);
             EXPECT_EQ(camera.spheres[i].inverse_power, camera_later.spheres[i].inverse_power);
         }
         for (std::size_t light = 0; light < scene_.lights.size(); ++light) {
-            EXPECT_EQ(std::memcmp(shadow.planes(light), shadow_later.planes(light),
-                                  fast_.triangle_end() * sizeof(ShadowPlanes)),
-                      0);
-            EXPECT_TRUE(same_bytes(shadow.table(light).quadric_sides,
-                                   shadow_later.table(light).quadric_sides));
+            EXPECT_TRUE(same_bytes(shadow.table(light).hides, shadow_later.table(light).hides));
+            for (Slot slot = 0; slot < fast_.triangle_end(); ++slot) {
+                if (!shadow.hides(light, slot)) continue;
+                ASSERT_EQ(std::memcmp(shadow.planes(light) + slot,
+                                      shadow_later.planes(light) + slot, sizeof(ShadowPlanes)),
+                          0);
+            }
             EXPECT_TRUE(
                 same_bytes(shading.lights[light].cosines, shading_later.lights[light].cosines));
         }
@@ -134,15 +144,35 @@ TEST_F(TriangleChunkTest, SidesOfALightAreKnownWhereItStandsWithinTheScene) {
         const auto& sides = tables.table(1).quadric_sides;
         const LightSide side =
             sides.empty() ? LightSide::kOutside : sides[slot - fast_.triangle_end()];
-        EXPECT_EQ(side, gap > 0 ? LightSide::kOutside : LightSide::kInside);
+        const LightSide within = scene_.objects[fast_.source(slot).object].solid
+                                     ? LightSide::kBlind
+                                     : LightSide::kInside;
+        EXPECT_EQ(side, gap > 0 ? LightSide::kOutside : within);
     }
 }
 
 TEST_F(TriangleChunkTest, ALightWithinASphereIsInsideOfIt) {
     scene_.lights[1].location = std::get<Sphere>(scene_.objects[3].shape).center;
-    const ShadowTables tables(fast_, resolved(InstructionSet::kBest));
-    ASSERT_FALSE(tables.table(1).quadric_sides.empty());
-    EXPECT_EQ(tables.table(1).quadric_sides[0], LightSide::kInside);
+    for (const bool solid : {false, true}) {
+        scene_.objects[3].solid = solid;
+        const ShadowTables tables(fast_, resolved(InstructionSet::kBest));
+        ASSERT_FALSE(tables.table(1).quadric_sides.empty());
+        EXPECT_EQ(tables.table(1).quadric_sides[0], solid ? LightSide::kBlind : LightSide::kInside);
+    }
+}
+
+TEST_F(TriangleChunkTest, NothingThatCastsNoShadowHidesAnything) {
+    for (Object& object : scene_.objects) object.casts_shadow = false;
+    const Primitives primitives = flatten(scene_, LeafContent::kPrimitives);
+    const FastScene fast(scene_, primitives, OctreeType::kUniform, 1);
+    const ShadowTables tables(fast, resolved(InstructionSet::kBest));
+    for (std::size_t light = 0; light < scene_.lights.size(); ++light) {
+        for (Slot slot = 0; slot < fast.triangle_end(); ++slot)
+            ASSERT_FALSE(tables.hides(light, slot));
+        for (const LightSide side : tables.table(light).quadric_sides)
+            ASSERT_EQ(side, LightSide::kBlind);
+        EXPECT_EQ(tables.table(light).quadric_sides.size(), fast.slot_end() - fast.triangle_end());
+    }
 }
 
 }  // namespace

@@ -26,6 +26,23 @@ TEST(RayGenerator, TheMiddleOfThePictureLooksStraightAhead) {
     EXPECT_EQ(RayGenerator(Camera{}, {3, 3}).ray(1, 1).direction, (Vector3{0, 0, -1}));
 }
 
+// 4 units wide and 2 high, its middle 1 to the right of the position and 3 above.
+TEST(RayGenerator, AWindowIsSeenByParallelRays) {
+    Camera camera;
+    camera.window = {{-1, 2}, {3, 4}};
+    for (const Resolution size : {Resolution{400, 200}, Resolution{40, 20}}) {
+        const RayGenerator rays(camera, size);
+        const Ray corner = rays.ray_at(0, 0);
+        EXPECT_EQ(corner.origin, (Point3{-1, 4, 10}));
+        EXPECT_EQ(corner.direction, (Vector3{0, 0, -1}));
+        EXPECT_EQ(rays.ray_at(size.width, size.height).origin, (Point3{3, 2, 10}));
+        EXPECT_EQ(rays.ray_at(size.width, size.height).direction, (Vector3{0, 0, -1}));
+    }
+    // A picture of another shape shows more on one axis, about the same middle.
+    EXPECT_EQ(RayGenerator(camera, {400, 100}).ray_at(0, 0).origin, (Point3{-3, 4, 10}));
+    EXPECT_EQ(RayGenerator(camera, {100, 100}).ray_at(0, 0).origin, (Point3{-1, 5, 10}));
+}
+
 TEST(RayGenerator, FieldOfViewIsTheVerticalAngleOfAWidePicture) {
     const RayGenerator wide(half_camera(), {400, 200});
     expect_near(wide.ray_at(200, 0).direction, normalized(Vector3{0, 0.5, -1}));

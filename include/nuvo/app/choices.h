@@ -38,6 +38,8 @@ inline constexpr std::array kWalks{Choice{"hash", WalkChoice::kHash},
 inline constexpr std::array kPrecisions{Choice{"float", Precision::kFloat},
                                         Choice{"double", Precision::kDouble},
                                         Choice{"exact", Precision::kExact}};
+inline constexpr std::array kBackFaces{Choice{"solid", BackFaces::kSolid},
+                                       Choice{"draw", BackFaces::kDraw}};
 inline constexpr std::array kTracers{Choice{"serial", TracerChoice::kSerial},
                                      Choice{"tiles", TracerChoice::kTiles}};
 inline constexpr std::array kInstructionSets{

@@ -63,7 +63,8 @@ struct Pass {
     std::vector<double> trace_seconds;
     std::vector<double> build_wall_seconds;
     std::vector<double> trace_wall_seconds;
-    ProcessTimes process;  ///< around all repetitions
+    ProcessTimes process;              ///< around all repetitions
+    std::vector<std::string> remarks;  ///< on the picture, a line each
 };
 
 /// Two passes of -compare.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 #include <optional>
 
 #include "nuvo/geometry/ellipsoid.h"
@@ -13,7 +14,8 @@ namespace nuvo::plain {
 template <typename T>
 struct Hit {
     T t;
-    Vec2<T> uv;  ///< triangle: weights of b and c; else 0
+    Vec2<T> uv;         ///< triangle: weights of b and c; else 0
+    bool front = true;  ///< the ray meets the side on which the corners run counterclockwise
 };
 
 /// Moeller and Trumbore, both sides; the division waits until the hit is sure. [thesis 4.2.4]
@@ -34,7 +36,7 @@ std::optional<Hit<T>> hit(const RayT<T>& ray, const Vec3<T>& a, const Vec3<T>& b
     if (!(v >= 0 && u + v <= size) || size == 0) return std::nullopt;
     const T t = dot(e2, q) * side / size;
     if (!(t > 0)) return std::nullopt;
-    return Hit<T>{t, {u / size, v / size}};
+    return Hit<T>{t, {u / size, v / size}, determinant > 0};
 }
 
 /// The roots of |f + t d|^2 = R^2, in the order of t, by the quadratic formula. [eq. 22-24]
@@ -49,15 +51,20 @@ std::optional<Vec2<T>> roots(const Vec3<T>& f, const Vec3<T>& d, T radius) {
     return Vec2<T>{(-b - root) / a, (-b + root) / a};
 }
 
+/// Which of the roots > 0 is met: the first one, or only where the ray enters or leaves.
+enum class Met : std::uint8_t { kFirst, kEntry, kExit };
+
 template <typename T>
-std::optional<Hit<T>> smallest_positive(const std::optional<Vec2<T>>& roots) {
+std::optional<Hit<T>> root_met(const std::optional<Vec2<T>>& roots, Met met) {
     if (!roots || !(roots->y > 0)) return std::nullopt;
-    return Hit<T>{roots->x > 0 ? roots->x : roots->y, {}};
+    if (met == Met::kEntry && !(roots->x > 0)) return std::nullopt;
+    return Hit<T>{roots->x > 0 && met != Met::kExit ? roots->x : roots->y, {}};
 }
 
 template <typename T>
-std::optional<Hit<T>> hit(const RayT<T>& ray, const Vec3<T>& center, T radius) {
-    return smallest_positive(roots(ray.origin - center, ray.direction, radius));
+std::optional<Hit<T>> hit(const RayT<T>& ray, const Vec3<T>& center, T radius,
+                          Met met = Met::kFirst) {
+    return root_met(roots(ray.origin - center, ray.direction, radius), met);
 }
 
 /// An ellipsoid in its local space: `inverse` undoes Ellipsoid::linear.
@@ -79,9 +86,8 @@ struct LocalEllipsoid {
 };
 
 template <typename T>
-std::optional<Hit<T>> hit(const RayT<T>& ray, const LocalEllipsoid<T>& e) {
-    return smallest_positive(
-        roots(e.local(ray.origin - e.center), e.local(ray.direction), e.radius));
+std::optional<Hit<T>> hit(const RayT<T>& ray, const LocalEllipsoid<T>& e, Met met = Met::kFirst) {
+    return root_met(roots(e.local(ray.origin - e.center), e.local(ray.direction), e.radius), met);
 }
 
 /// Shadow: a hit at 0 < t < end.

@@ -129,6 +129,12 @@ class ExactRay {
     double inverse_square_;
 };
 
+/// Which sides of a surface are there: the back of a solid one is invisible, to the camera as to a
+/// light. A ray meets a front where n.d < 0, n pointing outwards or to the side on which the
+/// corners run counterclockwise; what comes from a light runs against the direction of the shadow
+/// ray.
+enum class Sides : std::uint8_t { kBoth, kFront };
+
 /// A hit's parameter: the true one lies in [low, high], and t within root_tolerance() of it.
 struct Root {
     double t;
@@ -163,28 +169,44 @@ namespace detail {
 /// Whether the line has exactly one point in common with the triangle.
 enum class LineTest : std::uint8_t { kMisses, kMeets };
 
+/// Which crossings of a triangle count: all, those with n.d < 0, or those with n.d > 0.
+enum class Crossing : std::uint8_t { kAny, kIn, kOut };
+/// Of those sides: by a ray that sees them, and by one that runs towards a light.
+constexpr Crossing seen(Sides sides) { return static_cast<Crossing>(sides); }
+constexpr Crossing towards(Sides sides) {
+    return sides == Sides::kBoth ? Crossing::kAny : Crossing::kOut;
+}
+static_assert(seen(Sides::kBoth) == Crossing::kAny && seen(Sides::kFront) == Crossing::kIn);
+
 /// The line test where the ray's own bound does not decide, or where it has none. It may also say
 /// that the line misses where it meets the triangle at t = 0, or at t = `end` = 1.
 LineTest line_test_alone(const ExactRay& ray, double end, const Triangle& triangle,
-                         StageCounts& counts);
+                         Crossing crossing, StageCounts& counts);
 
+/// The edge functions add up to -n.d, so that their common sign tells which way the line crosses.
 inline LineTest line_test(const ExactRay& ray, double end, const Triangle& triangle,
-                          StageCounts& counts) {
+                          Crossing crossing, StageCounts& counts) {
     const double error = ray.edge_error();
     const Vector3 a = triangle.a - ray.origin();
     const Vector3 b = triangle.b - ray.origin();
     const Vector3 c = triangle.c - ray.origin();
     const Vector3 q = cross(ray.direction(), c);
-    const double u = dot(b, q);   // d . (c x b)
+    // The one sign that does not count is treated as if its opposite had been found.
+    const double u = dot(b, q);  // d . (c x b)
+    bool positive = crossing == Crossing::kIn || u > error;
+    bool negative = crossing == Crossing::kOut || u < -error;
+    if (positive && negative) return LineTest::kMisses;
     const double v = -dot(a, q);  // d . (a x c)
-    if ((u > error && v < -error) || (u < -error && v > error)) return LineTest::kMisses;
+    positive = positive || v > error;
+    negative = negative || v < -error;
+    if (positive && negative) return LineTest::kMisses;
     const double w = dot(ray.direction(), cross(b, a));
-    const bool positive = u > error || v > error || w > error;
-    const bool negative = u < -error || v < -error || w < -error;
+    positive = positive || w > error;
+    negative = negative || w < -error;
     if (positive && negative) return LineTest::kMisses;
     if ((u > error && v > error && w > error) || (u < -error && v < -error && w < -error))
         return LineTest::kMeets;
-    return line_test_alone(ray, end, triangle, counts);
+    return line_test_alone(ray, end, triangle, crossing, counts);
 }
 
 /// The magnitudes within which the squares and products of the sphere's stage neither overflow nor
@@ -228,11 +250,11 @@ inline constexpr double kLargestRoot = 0x1p1000;
 
 /// For a line that meets the triangle.
 std::optional<Root> triangle_hit(const ExactRay&, const Triangle&, StageCounts&);
-std::optional<SphereHit> sphere_hit(const ExactRay&, const Sphere&, StageCounts&);
+std::optional<SphereHit> sphere_hit(const ExactRay&, const Sphere&, Sides, StageCounts&);
 bool triangle_blocks(const ExactRay&, double end, double origin_error, const Triangle&,
                      StageCounts&);
 bool sphere_blocks(const ExactRay&, double end, double origin_error, const Sphere&,
-                   bool origin_on_it, StageCounts&);
+                   bool origin_on_it, Sides, StageCounts&);
 
 }  // namespace detail
 
@@ -244,20 +266,24 @@ constexpr double surface_tolerance() { return 8 * root_tolerance(); }
 
 /// The hit at t > 0. Edges and vertices belong to the triangle; a ray within its plane, and a
 /// triangle without area, are never hit.
-inline std::optional<Root> hit(const ExactRay& ray, const Triangle& triangle, StageCounts& counts) {
+inline std::optional<Root> hit(const ExactRay& ray, const Triangle& triangle, StageCounts& counts,
+                               Sides sides = Sides::kBoth) {
     constexpr double kEndless = std::numeric_limits<double>::infinity();
-    const detail::LineTest test = detail::line_test(ray, kEndless, triangle, counts);
+    const detail::LineTest test =
+        detail::line_test(ray, kEndless, triangle, detail::seen(sides), counts);
     if (test == detail::LineTest::kMisses) return std::nullopt;
     return detail::triangle_hit(ray, triangle, counts);
 }
 
-/// The smallest root > 0, tangency included. Without radius never hit.
-inline std::optional<SphereHit> hit(const ExactRay& ray, const Sphere& sphere,
-                                    StageCounts& counts) {
+/// The smallest root > 0, tangency included; of a front only the near root, which is the double one
+/// at tangency, too. Without radius never hit.
+inline std::optional<SphereHit> hit(const ExactRay& ray, const Sphere& sphere, StageCounts& counts,
+                                    Sides sides = Sides::kBoth) {
     if (detail::surely_missed(ray, sphere)) return std::nullopt;
-    return detail::sphere_hit(ray, sphere, counts);
+    return detail::sphere_hit(ray, sphere, sides, counts);
 }
-std::optional<SphereHit> hit(const ExactRay& ray, const Ellipsoid& ellipsoid, StageCounts& counts);
+std::optional<SphereHit> hit(const ExactRay& ray, const Ellipsoid& ellipsoid, StageCounts& counts,
+                             Sides sides = Sides::kBoth);
 
 /// The exact sign of t_a - t_b for two hits of `ray`.
 int compare_roots(const ExactRay& ray, const HitPrimitive& a, const HitPrimitive& b,
@@ -273,20 +299,22 @@ SurfacePoint surface_point(const ExactRay& ray, const Ellipsoid& ellipsoid, Sphe
 /// pass through the lit point (a triangle's plane; a sphere's or ellipsoid's surface;
 /// `origin_on_it` says that it does) touches it. A touching triangle blocks nothing; a touching
 /// sphere blocks iff the way enters it and ends outside: a light on its surface, too, only touches
-/// it. Everything else is decided exactly.
+/// it. Everything else is decided exactly. Of a front only what is turned to the light blocks:
+/// where the way leaves a solid.
 inline bool blocks(const ExactRay& shadow, double end, double origin_error,
-                   const Triangle& triangle, StageCounts& counts) {
-    const detail::LineTest test = detail::line_test(shadow, end, triangle, counts);
+                   const Triangle& triangle, StageCounts& counts, Sides sides = Sides::kBoth) {
+    const detail::LineTest test =
+        detail::line_test(shadow, end, triangle, detail::towards(sides), counts);
     if (test == detail::LineTest::kMisses) return false;
     return detail::triangle_blocks(shadow, end, origin_error, triangle, counts);
 }
 inline bool blocks(const ExactRay& shadow, double end, double origin_error, const Sphere& sphere,
-                   bool origin_on_it, StageCounts& counts) {
+                   bool origin_on_it, StageCounts& counts, Sides sides = Sides::kBoth) {
     if (!origin_on_it && detail::surely_clear(shadow, sphere, origin_error)) return false;
-    return detail::sphere_blocks(shadow, end, origin_error, sphere, origin_on_it, counts);
+    return detail::sphere_blocks(shadow, end, origin_error, sphere, origin_on_it, sides, counts);
 }
 bool blocks(const ExactRay& shadow, double end, double origin_error, const Ellipsoid& ellipsoid,
-            bool origin_on_it, StageCounts& counts);
+            bool origin_on_it, StageCounts& counts, Sides sides = Sides::kBoth);
 
 /// No ray from `eye` that meets both triangles meets `other` before `front`, nor, unless `front`
 /// wins where they are met together, at the same t. False: not known.

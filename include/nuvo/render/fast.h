@@ -29,6 +29,7 @@ struct FastOptions {
     /// False: what the float stage leaves open is decided by its rounded values. For measuring what
     /// exactness costs; pictures may then differ from the exact profile's.
     bool redo_exactly = true;
+    BackFaces back_faces = BackFaces::kSolid;
 };
 
 /// Bytes held by a FastTracer.

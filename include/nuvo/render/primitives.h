@@ -49,6 +49,7 @@ struct Primitives {
     std::size_t zero_area_triangles = 0;  ///< left out: they can never be hit
     std::array<KindSummary, 3> kinds;     ///< by PrimitiveKind
     bool sorted_by_kind = true;           ///< none comes before one of a lower kind
+    bool all_cast_shadows = true;
 
     std::size_t item_count() const { return item_boxes.size(); }
     PrimitiveRange of_item(std::size_t item) const {

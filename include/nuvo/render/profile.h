@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 
 namespace nuvo {
@@ -14,6 +15,9 @@ enum class Precision { kFloat, kDouble, kExact };
 /// kThesis: the published costs and the rules that go with them [5.4]; kCalibrated: constant,
 /// measured costs.
 enum class CostChoice { kThesis, kCalibrated };
+/// What becomes of the back faces of solid shapes: invisible, to the camera as to lights (VRML97
+/// 4.6.3.3), or drawn and lit like fronts, as published.
+enum class BackFaces : std::uint8_t { kSolid, kDraw };
 /// kSerial: one ray at a time through an Octree, all else as chosen. kTiles: FastTracer, which
 /// shows what the exact profile shows and whose other answers but the type are its own.
 enum class TracerChoice { kSerial, kTiles };
@@ -33,6 +37,7 @@ struct Profile {
     Precision precision = Precision::kExact;
     /// Shadow rays start this far along the normal, in scene units; none: exact shadows.
     std::optional<double> bias;
+    BackFaces back_faces = BackFaces::kSolid;
 };
 
 /// The published program, its slips of arithmetic mended.

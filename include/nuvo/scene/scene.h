@@ -18,13 +18,16 @@ struct Object {
     Shape shape;
     std::uint32_t material = 0;     ///< index into Scene::materials
     std::uint32_t shape_index = 0;  ///< the Shape's place in document order, USEs expanded
-    bool solid = true;  ///< false: the shading normal turns to the viewer on the back side
+    /// Its back is invisible; false: it is seen, with the shading normal turned to the viewer.
+    bool solid = true;
+    bool casts_shadow = true;
 };
 
 /// What a file describes, in world space and double precision: the scene itself, not an
 /// approximation of it. It holds no acceleration structure.
 struct Scene {
     Camera camera;
+    bool camera_given = false;  ///< by a Viewpoint; else it is the standard's
     Background background;
     std::vector<Material> materials;
     std::vector<Object> objects;          ///< in document order

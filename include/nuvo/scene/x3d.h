@@ -33,6 +33,10 @@ inline constexpr std::size_t kMaxInlineDepth = 16;
 /// scene that has no light of its own.
 enum class Headlight { kAuto, kOn, kOff };
 
+/// What `viewpoint` may say besides, where no Viewpoint has such a name: none of the file's.
+inline constexpr const char* kStandardView = "standard";  ///< the camera of a file without one
+inline constexpr const char* kFittedView = "fit";  ///< the same, for the caller to put elsewhere
+
 /// How a file is read.
 struct ReadOptions {
     Limits limits{};

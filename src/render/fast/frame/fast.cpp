@@ -21,16 +21,19 @@ FastOptions with_isa(FastOptions options) {
     return options;
 }
 
+// Its tables are for rays from one point.
 bool is_near(const LocalFrame& frame, const Camera& camera) {
-    return max_norm(frame.local(camera.position)) < kFarthestCamera;
+    return !camera.window && max_norm(frame.local(camera.position)) < kFarthestCamera;
 }
 
 // What the serial tracer needs of the same scene.
 struct SerialTree {
     explicit SerialTree(const FastScene& fast)
-        : octree(build_tree(fast.scene(), fast.primitives(), profile)) {}
+        : profile(exact_profile()), octree(build_tree(fast.scene(), fast.primitives(), profile)) {
+        profile.back_faces = fast.back_faces();
+    }
 
-    Profile profile = exact_profile();
+    Profile profile;
     Octree octree;
 };
 
@@ -38,7 +41,8 @@ struct SerialTree {
 
 struct FastTracer::State {
     State(const Scene& scene, const Primitives& primitives, const FastOptions& given)
-        : options(with_isa(given)), fast(scene, primitives, options.type, options.threads) {}
+        : options(with_isa(given)),
+          fast(scene, primitives, options.type, options.threads, options.back_faces) {}
 
     BlockKeeper keeper;
     FastOptions options;

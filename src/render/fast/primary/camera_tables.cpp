@@ -81,6 +81,7 @@ void CameraTables::take_quadrics(QuadricSpan quadrics) {
         }
         out.material = object.material;
         out.solid = object.solid;
+        out.hidden = scene_.front_only(object) && !out.exactly && out.inverse_power < 0;
     }
 }
 
@@ -89,6 +90,8 @@ void CameraTables::finish() {
     for_each_part(threads_, spheres.size(), [&](std::size_t begin, std::size_t end) {
         make_sphere_boxes(isa_, camera_, spheres.data() + begin, end - begin,
                           by_slot_.data() + first + begin);
+        for (std::size_t i = begin; i < end; ++i)
+            if (spheres[i].hidden) by_slot_[first + i] = kNoPixels;
     });
     const std::vector<std::uint32_t>& items = scene_.octree().items;
     boxes.resize(items.size());

@@ -39,6 +39,7 @@ struct alignas(64) CameraSphere {
     float cross_error;    ///< bounds the error of f x d in double on each axis, over the picture
     std::uint32_t material;  ///< index into Scene::materials
     bool solid;
+    bool hidden;   ///< the camera is surely inside, where a back that nobody sees is turned to it
     bool exactly;  ///< floats cannot tell: an ellipsoid, or the camera is at the surface
 };
 static_assert(sizeof(CameraSphere) == 64);
@@ -51,6 +52,7 @@ struct alignas(16) PixelBox {
     Slot slot;
 };
 static_assert(sizeof(PixelBox) == 16);
+inline constexpr PixelBox kNoPixels{};
 
 /// Made anew for each picture.
 class CameraTables {

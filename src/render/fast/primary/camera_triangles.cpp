@@ -29,9 +29,13 @@ class TriangleMaker {
           scale_(scale),
           extent_(camera) {}
 
-    /// Returns which ones double arithmetic cannot tell, by lane.
-    HWY_INLINE std::uint32_t make(const TriangleBatch& batch, CameraTriangle* out,
-                                  std::size_t count) {
+    /// Which of a batch's triangles double arithmetic cannot tell, and which of the others turn a
+    /// back to the eye that nobody sees; where all do so nothing is made of them.
+    struct Found {
+        std::uint32_t unknown;
+        std::uint32_t hidden;
+    };
+    HWY_INLINE Found make(const TriangleBatch& batch, CameraTriangle* out, std::size_t count) {
         const Wide3 p = load_wide(batch.corner);
         const Wide3 q = load_wide(batch.corner + 3);
         const Wide3 r = load_wide(batch.corner + 6);
@@ -60,13 +64,18 @@ class TriangleMaker {
         const Wide size = bound(inverse_plane);
         // Infinite or NaN: floats cannot tell.
         known_ = (share < Wide(0.25)) & (size < Wide(kLargest)) & (edge_error < Wide(kLargest));
+        const std::uint32_t there = (1U << count) - 1;
+        // Where K is known it has the sign of the exact one.
+        const Found found{~known_.bits() & there,
+                          (known_ & (constant > Wide(0.0))).bits() & batch.front_only & there};
+        if (found.hidden == there) return found;
         put(0, cross(b, bc) * sign, edge_error, Wide(0.0));
         put(1, cross(c, ca) * sign, edge_error, Wide(0.0));
         put(2, cross(a, ab) * sign, edge_error, Wide(0.0));
         put(3, inverse_plane, normal_error * direction * abs(inverse), Wide(2.0) * share);
         static_assert(sizeof(CameraTriangle) == 16 * sizeof(float));
         columns_.write(out->a, count);
-        return ~known_.bits() & ((1U << count) - 1);
+        return found;
     }
 
   private:
@@ -102,12 +111,16 @@ void make_triangles(const CameraTrianglesJob& job, const TriangleChunk& chunk) {
     TriangleMaker maker(job.camera, job.eye, job.scale);
     const PixelBoxMaker boxes(job.camera);
     chunk.for_each_batch([&](const TriangleBatch& batch, Slot first, std::size_t count) HWY_ATTR {
-        std::uint32_t unknown = maker.make(batch, job.out + first, count);
-        boxes.triangles(batch.corner, job.eye, job.scale, job.boxes + first, count);
+        const std::uint32_t there = (1U << count) - 1;
+        auto [unknown, hidden] = maker.make(batch, job.out + first, count);
+        if (hidden != there)
+            boxes.triangles(batch.corner, job.eye, job.scale, job.boxes + first, count);
+        for (; hidden != 0; hidden &= hidden - 1)
+            job.boxes[first + static_cast<Slot>(std::countr_zero(hidden))] = kNoPixels;
         for (; HWY_UNLIKELY(unknown != 0); unknown &= unknown - 1) {
             const auto i = static_cast<std::size_t>(std::countr_zero(unknown));
-            make_exact_camera_triangle(job, batch.triangle(i), job.out[first + i],
-                                       job.boxes[first + i]);
+            make_exact_camera_triangle(job, batch.triangle(i), (batch.front_only >> i & 1) != 0,
+                                       job.out[first + i], job.boxes[first + i]);
         }
     });
 }

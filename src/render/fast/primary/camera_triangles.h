@@ -31,9 +31,9 @@ struct CameraTrianglesJob {
 };
 
 /// The record of a triangle of which double arithmetic cannot tell it, and no pixels at all where
-/// the eye lies in its plane: from there it is never hit.
+/// the eye lies in its plane or behind a front that alone is visible: from there it is never hit.
 void make_exact_camera_triangle(const CameraTrianglesJob& job, const Triangle& triangle,
-                                CameraTriangle& out, PixelBox& box);
+                                bool front_only, CameraTriangle& out, PixelBox& box);
 
 /// Makes the records and pixel boxes of a chunk.
 void make_camera_triangles(const CameraTrianglesJob& job, const TriangleChunk& chunk,

@@ -37,11 +37,11 @@ Triangle triangle_of(const FastScene& scene, Slot slot) {
 }
 
 void make_exact_camera_triangle(const CameraTrianglesJob& job, const Triangle& triangle,
-                                CameraTriangle& out, PixelBox& box) {
+                                bool front_only, CameraTriangle& out, PixelBox& box) {
     const ExactPlane plane(triangle, job.eye);
     const int sign = plane.constant.sign();
-    if (sign == 0) {
-        box.columns = box.rows = 0;
+    if (sign == 0 || (front_only && sign > 0)) {
+        box = kNoPixels;
         return;
     }
     const CameraExtent extent(job.camera);

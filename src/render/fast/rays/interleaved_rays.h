@@ -182,11 +182,13 @@ class InterleavedRays {
             reinterpret_cast<const std::uint16_t*>(centers + std::size_t{4} * spheres);
         for (std::uint32_t i = 0; i < triangles; i += kWideLanes)
             take(state, at,
-                 test_triangles(at, corners + i, triangles, triangles - i, rays_.bounds_scale()),
+                 test_triangles(at, corners + i, triangles, triangles - i, front_only(slots + i),
+                                rays_.bounds_scale()),
                  slots + i, triangles - i);
         for (std::uint32_t i = 0; i < spheres; i += kWideLanes)
             take(state, at,
-                 test_spheres(at, centers + i, spheres, spheres - i, rays_.bounds_scale()),
+                 test_spheres(at, centers + i, spheres, spheres - i,
+                              front_only(slots + triangles + i), rays_.bounds_scale()),
                  slots + triangles + i, spheres - i);
         if (others != 0) add_open(state, other_slots, others);
     }
@@ -212,7 +214,7 @@ class InterleavedRays {
             const int lane = std::countr_zero(kept);
             const bool is_sure = (sure >> lane & 1) != 0;
             if (low[lane] > state.best) continue;
-            add(state, {low[lane], high[lane], slots[lane], is_sure});
+            add(state, {low[lane], high[lane], slots[lane] & ~kFrontOnly, is_sure});
             if (is_sure) state.best = std::min(state.best, high[lane]);
         }
         drop_levels(state);
@@ -232,7 +234,7 @@ class InterleavedRays {
 
     HWY_NOINLINE void add_open(RayState& state, const Slot* slots, std::uint32_t count) const {
         for (std::uint32_t i = 0; i < count; ++i)
-            add(state, {-kInfinity, kInfinity, slots[i], false});
+            add(state, {-kInfinity, kInfinity, slots[i] & ~kFrontOnly, false});
     }
 
     void add(RayState& state, const RayCandidate& candidate) const {

@@ -35,7 +35,7 @@ namespace nuvo {
 
 SingleRays::SingleRays(const FastScene& scene, InstructionSet isa, bool redo_exactly)
     : scene_(scene),
-      kernel_(scene.scene(), scene.primitives(), std::nullopt),
+      kernel_(scene.scene(), scene.primitives(), std::nullopt, scene.back_faces()),
       tree_(scene),
       roots_(resolved(isa)),
       bounds_scale_(redo_exactly ? 1.0F : 0.0F),

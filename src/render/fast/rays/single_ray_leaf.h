@@ -122,7 +122,13 @@ HWY_INLINE Vector16 load_corner(const std::uint16_t* corners, std::size_t stride
             Floats::from_shorts(x + 2 * stride) - Floats(ray.at[2])};
 }
 
-/// Triangles whose nine coordinates stand `stride` apart from `corners` on.
+/// Which of 16 slots of a leaf have a back that is invisible.
+HWY_INLINE RayMask front_only(const Slot* slots) {
+    return mask_for<float>(Ints::load(reinterpret_cast<const std::int32_t*>(slots)) < Ints(0));
+}
+
+/// Triangles whose nine coordinates stand `stride` apart from `corners` on. The sum of the edge
+/// functions is -n.d: of a front all are positive.
 ///
 /// Edge functions d . (q x p) of two corners: p and q off by e move it by |d|_1 (2 e (|p| + |q|) +
 /// 2 e^2), and 8 roundings of six terms |d|_1 M^2 / 3 and one of d add less than 18 u |d|_1 M^2.
@@ -131,7 +137,8 @@ HWY_INLINE Vector16 load_corner(const std::uint16_t* corners, std::size_t stride
 /// max(|e1|, |e2|), L <= M; d . n by k |d|_1 and n . a by k |a|_1 + e |n|_1, with three roundings
 /// more of the terms, which the ninth e covers (9 instead of 8.5; 4 u M^2 < 0.02 e M).
 HWY_INLINE LeafHits test_triangles(const RayAtLeaf& ray, const std::uint16_t* corners,
-                                   std::size_t stride, std::uint32_t count, float scale) {
+                                   std::size_t stride, std::uint32_t count, const RayMask& front,
+                                   float scale) {
     const Vector16 a = load_corner(corners, stride, 0, ray);
     const Vector16 b = load_corner(corners, stride, 1, ray);
     const Vector16 c = load_corner(corners, stride, 2, ray);
@@ -145,8 +152,8 @@ HWY_INLINE LeafHits test_triangles(const RayAtLeaf& ray, const std::uint16_t* co
     const Floats edge_error(scale * kEdge * (1 + 8 * kFloatRoundoff) * ray.direction_sum);
     const Floats least = min(u, min(v, w));
     const Floats most = max(u, max(v, w));
-    const RayMask inside = (least > edge_error) | (most < -edge_error);
-    const RayMask outside = (least < -edge_error) & (most > edge_error);
+    const RayMask inside = (least > edge_error) | without(most < -edge_error, front);
+    const RayMask outside = (least < -edge_error) & ((most > edge_error) | front);
     LeafHits hits = LeafHits::none();
     if (((~outside).bits() & first_lanes(count)) == 0) return hits;
 
@@ -183,7 +190,7 @@ HWY_INLINE LeafHits test_triangles(const RayAtLeaf& ray, const std::uint16_t* co
 /// left of it across d, l = f - (f.d / d.d) d, is off by e and 16 roundings of |f| <= 16 u |f|; l.l
 /// by 2 |l| that + that^2.
 HWY_INLINE LeafHits test_spheres(const RayAtLeaf& ray, const float* values, std::size_t stride,
-                                 std::uint32_t count, float scale) {
+                                 std::uint32_t count, const RayMask& front, float scale) {
     // What stands behind a leaf is not to be taken for a float: it may be a slow, subnormal one.
     const RayMask present = RayMask::from_bits(first_lanes(count));
     const Vector16 f = {Floats(ray.from[0]) - Floats::load(values, present),
@@ -221,8 +228,8 @@ HWY_INLINE LeafHits test_spheres(const RayAtLeaf& ray, const float* values, std:
     const RayMask far_ahead = far - slack > behind;
     hits.low = select(near_behind, far - slack, near - slack);
     hits.high = select(near_ahead, near + slack, far + slack);
-    hits.sure = meets & (near_ahead | (near_behind & far_ahead));
-    hits.open = without(~misses, hits.sure);
+    hits.sure = meets & (near_ahead | without(near_behind & far_ahead, front));
+    hits.open = without(without(~misses, hits.sure), near_behind & front);
     return hits;
 }
 

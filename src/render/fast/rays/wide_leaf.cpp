@@ -174,7 +174,10 @@ std::uint32_t append_leaf(const FastScene& scene, std::span<const Slot> slots,
     std::memcpy(words.data() + place, &head, sizeof head);
     if (many) words.push_back(static_cast<std::uint32_t>(sorted.others.size()));
     for (const auto* part : {&sorted.triangles, &sorted.spheres, &sorted.others})
-        words.insert(words.end(), part->begin(), part->end());
+        for (const Slot slot : *part) {
+            const Object& object = scene.scene().objects[scene.source(slot).object];
+            words.push_back(slot | (scene.front_only(object) ? kFrontOnly : 0));
+        }
     for (const auto& values : sorted.centers_and_radii) put_floats(values, words);
     put_corners(grid, sorted.corners, words);
     return static_cast<std::uint32_t>(place);

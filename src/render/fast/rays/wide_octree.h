@@ -29,9 +29,10 @@ struct alignas(64) WideNode {
 };
 
 /// Copies of a leaf's primitives, side by side, in 32-bit words from its place on: this head, then
-/// the slots of triangles, spheres and others; center x, y, z and radius of the spheres in the
-/// local frame; corners of the triangles (a.x of all, a.y of all ... c.z of all) in 16 bits each,
-/// local coordinate = base + unit * number. `others` are to be tested exactly.
+/// the slots of triangles, spheres and others, with kFrontOnly where the back is invisible; center
+/// x, y, z and radius of the spheres in the local frame; corners of the triangles (a.x of all, a.y
+/// of all ... c.z of all) in 16 bits each, local coordinate = base + unit * number. `others` are to
+/// be tested exactly.
 struct WideLeafHead {
     float base[3];
     std::int8_t exponent;  ///< unit = 2^exponent
@@ -42,6 +43,7 @@ struct WideLeafHead {
 
     static constexpr std::uint8_t kMany = 255;
 };
+inline constexpr std::uint32_t kFrontOnly = 1U << 31;
 inline constexpr std::size_t kLeafHeadWords = sizeof(WideLeafHead) / sizeof(std::uint32_t);
 static_assert(kLeafHeadWords == 4);
 

@@ -123,8 +123,9 @@ CompactOctree octree_of(const LocalItems& items, CompactBuildOptions options) {
 
 }  // namespace
 
-FastScene::FastScene(const Scene& scene, const Primitives& primitives, OctreeType type, int threads)
-    : scene_(scene), primitives_(primitives) {
+FastScene::FastScene(const Scene& scene, const Primitives& primitives, OctreeType type, int threads,
+                     BackFaces back_faces)
+    : scene_(scene), primitives_(primitives), back_faces_(back_faces) {
     Bounds3 box;
     for (const KindSummary& kind : primitives.kinds) box = box.extended(kind.box);
     frame_ = frame_of(box);

@@ -41,10 +41,16 @@ using QuadricSpan = std::span<const QuadricSlot>;
 /// and lights.
 class FastScene {
   public:
-    FastScene(const Scene& scene, const Primitives& primitives, OctreeType type, int threads);
+    FastScene(const Scene& scene, const Primitives& primitives, OctreeType type, int threads,
+              BackFaces back_faces = BackFaces::kSolid);
 
     const Scene& scene() const { return scene_; }
     const Primitives& primitives() const { return primitives_; }
+    BackFaces back_faces() const { return back_faces_; }
+    /// Whether the object's back faces are invisible.
+    bool front_only(const Object& object) const {
+        return object.solid && back_faces_ == BackFaces::kSolid;
+    }
     const LocalFrame& frame() const { return frame_; }
     /// Holds every triangle; world space.
     const Bounds3& triangle_box() const { return primitives_.kind(PrimitiveKind::kTriangle).box; }
@@ -83,6 +89,7 @@ class FastScene {
 
     const Scene& scene_;
     const Primitives& primitives_;
+    BackFaces back_faces_;
     LocalFrame frame_;
     double largest_coordinate_ = 0;
     Slot triangle_end_ = 0;

@@ -35,13 +35,18 @@ void TriangleChunk::fetch(const FastScene& scene, Slot first_slot, Slot last_slo
     while (slot < last) {
         const std::uint32_t object = scene.source(slot).object;
         const TriangleMesh& mesh = mesh_of(object);
+        const std::uint32_t front_only = scene.front_only(objects[object]) ? 1 : 0;
+        const std::uint32_t shadowless = objects[object].casts_shadow ? 0 : 1;
         if (scene.triangle_end() - slot > kAhead)
             ask_for(mesh_of(scene.source(slot + kAhead).object));
         for (; slot < last && scene.source(slot).object == object; ++slot) {
             const IndexTriple& corners = mesh.triangles[scene.source(slot).triangle];
             const Slot place = slot - first;
-            auto& to = batches[place / TriangleBatch::kSize].corner;
+            TriangleBatch& batch = batches[place / TriangleBatch::kSize];
+            auto& to = batch.corner;
             const std::size_t lane = place % TriangleBatch::kSize;
+            batch.front_only = (lane == 0 ? 0 : batch.front_only) | front_only << lane;
+            batch.shadowless = (lane == 0 ? 0 : batch.shadowless) | shadowless << lane;
             for (std::size_t i = 0; i < 3; ++i) {
                 const Point3& p = mesh.positions[corners[i]];
                 to[3 * i][lane] = p.x;

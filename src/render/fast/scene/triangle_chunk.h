@@ -17,6 +17,8 @@ namespace nuvo {
 struct alignas(64) TriangleBatch {
     static constexpr std::size_t kSize = 8;
     double corner[9][kSize];
+    std::uint32_t front_only;  ///< bit i: the back of triangle i is invisible
+    std::uint32_t shadowless;  ///< bit i: it casts no shadow
 
     Triangle triangle(std::size_t i) const {
         return {{corner[0][i], corner[1][i], corner[2][i]},

@@ -104,7 +104,8 @@ class LightBufferMaker {
     /// Calls use(face, ranges, lanes) for the faces on which items [first, first + 16) are met.
     template <typename Use>
     HWY_INLINE void for_each_face(Slot first, Use&& use) {
-        const std::uint32_t there = (1U << count_from(first)) - 1;
+        const std::uint32_t there = ((1U << count_from(first)) - 1) & hiding(first);
+        if (there == 0) return;
         const ItemCorners items = corners(first);
         if (!out_.inside) {
             use(0, plane_.of(items), there);
@@ -115,6 +116,13 @@ class LightBufferMaker {
             const LightRanges ranges = cube_.of(face);
             if ((ranges.lanes & there) != 0) use(face, ranges, ranges.lanes & there);
         }
+    }
+    // Which of 16 items from `first` on may hide something.
+    std::uint32_t hiding(Slot first) const {
+        if (first >= triangle_end_ || source_.hides == nullptr) return ~0U;
+        const std::uint8_t* const at = source_.hides + first / 8;
+        return (std::uint32_t{at[0]} | std::uint32_t{at[1]} << 8 | std::uint32_t{at[2]} << 16) >>
+               first % 8;
     }
     // At most 16, of one kind.
     Slot count_from(Slot first) const {
@@ -286,9 +294,11 @@ class LightBufferMaker {
                 out_.entries[out_.starts[cell + 1]++] = record.entry;
             });
         }
+        const LightGrid coarsest = out_.grids.back();
         std::erase_if(out_.grids, [&](const LightGrid& grid) {
             return out_.starts[grid.first_cell] == out_.starts[grid.first_cell + cells_of(grid)];
         });
+        if (out_.grids.empty()) out_.grids.push_back(coarsest);  // nothing hides anything
     }
 
     LightBuffer& out_;

@@ -47,6 +47,8 @@ struct LightBuffer {
         const BigVector<Quadric>& quadrics;
         double reach;  ///< bounds |coordinate| in the scene
         double touch;  ///< what lies within this of a shadow ray may block it
+        /// Which triangles may hide something, 8 in a byte; null: all.
+        const std::uint8_t* hides = nullptr;
     };
     static constexpr std::size_t kMaxGrids = 4;
 

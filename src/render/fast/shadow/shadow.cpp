@@ -68,7 +68,8 @@ class ShadowTracer {
             [](float) { return false; },
             [&](const std::uint32_t* items, std::uint32_t count, float) HWY_ATTR {
                 for (std::uint32_t i = 0; i < count; ++i)
-                    if (!mailbox.seen(items[i])) block.test(context_, items[i], lanes);
+                    if (tables.hides(light_, items[i]) && !mailbox.seen(items[i]))
+                        block.test(context_, items[i], lanes);
                 if (context_.job.open.size() > kMostOpen) settle();
                 return (block.waiting() & lanes) == 0;
             });

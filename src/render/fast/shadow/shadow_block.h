@@ -92,6 +92,7 @@ class ShadowBlock {
 
     HWY_INLINE void test_round(const ShadowContext& context, Slot slot, std::uint32_t lanes) {
         const QuadricItem item(context.job.tables, context.table, slot);
+        if (item.side == LightSide::kBlind) return;
         const QuadricTest test(item, points_, shadow_rays_, quadric_error_);
         block(test.blocked());
         const std::uint32_t open = waiting_ & lanes & ~test.free();

@@ -36,7 +36,8 @@ struct Quadric {
     float radius;
 };
 
-/// Where a light stands towards a quadric.
-enum class LightSide : std::uint8_t { kOutside, kInside, kUnknown };
+/// Where a light stands towards a quadric; kBlind: it sees no front of it, or the shape casts
+/// no shadow.
+enum class LightSide : std::uint8_t { kOutside, kInside, kBlind, kUnknown };
 
 }  // namespace nuvo

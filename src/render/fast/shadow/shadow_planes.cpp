@@ -43,6 +43,12 @@ class PlanesMaker {
         const Wide norm1_of_e2 = norm1(e2);
         const Wide edges = norm1_of_e1 * norm1_of_e2;
         const Wide side = signs(batch, count, dot(normal, from_a), edges);
+        const std::uint32_t there = (1U << count) - 1;
+        const std::uint32_t hides =
+            ((side > Wide(0.0)).bits() | ((side < Wide(0.0)).bits() & ~batch.front_only)) &
+            ~batch.shadowless & there;
+        job_.hides[first / kBatch] = static_cast<std::uint8_t>(hides);
+        if (hides == 0) return;
         put(0, cross(e1, from_a), side, local_a, norm1_of_e1 * size_);
         put(1, cross(from_a, e2), side, local_a, norm1_of_e2 * size_);
         put(2, cross(e3, from_b), side, local_b, norm1(e3) * size_);

@@ -22,6 +22,8 @@ constexpr double kPlaneRoundings = 16;
 constexpr double kRoundRoundings = 128;
 // A surface that P touches passes within 2 sqrt(3) + 3/4 of P's error. [numerics: shadow ends]
 constexpr double kTouch = 8;
+// Bytes behind the last of ShadowTable::hides, which may be read.
+constexpr std::size_t kReadAhead = 3;
 
 // The sphere around an ellipsoid, so wide that a point outside is not taken to touch it: touching
 // points have |F| <= R' + (1 + sqrt 2) e |rho| in the terms of numerics: shadow ends, and outside
@@ -88,7 +90,10 @@ ShadowTables::ShadowTables(const FastScene& scene, InstructionSet isa, int threa
         if (!light.casts_shadow) continue;
         table.first_plane = made;
         made += scene.triangle_end();
-        if (!outside_of_all(table.light)) table.quadric_sides.resize(quadrics_.size());
+        table.hides.resize(scene.triangle_end() / 8 + kReadAhead);
+        std::fill(table.hides.begin(), table.hides.end(), std::uint8_t{0});
+        if (!outside_of_all(table.light) || !scene.primitives().all_cast_shadows)
+            table.quadric_sides.resize(quadrics_.size());
     }
     if (filling == TableFilling::kNow) fill_tables(scene, threads, *this);
 }
@@ -97,12 +102,16 @@ void ShadowTables::take(const TriangleChunk& chunk) {
     for (std::size_t i = 0; i < tables_.size(); ++i) {
         const Light& light = scene_.scene().lights[i];
         if (!light.casts_shadow) continue;
-        const ShadowTable& table = tables_[i];
+        ShadowTable& table = tables_[i];
         ShadowPlanes* const planes = planes_.data() + table.first_plane;
-        if (table.light.finite)
-            make_shadow_planes({scene_, table.light, reach_, planes, light}, chunk, isa_);
-        else
-            std::fill(planes + chunk.first, planes + chunk.last, ShadowPlanes{});
+        if (table.light.finite) {
+            make_shadow_planes({scene_, table.light, reach_, planes, table.hides.data(), light},
+                               chunk, isa_);
+            continue;
+        }
+        std::fill(planes + chunk.first, planes + chunk.last, ShadowPlanes{});
+        std::fill(table.hides.begin() + chunk.first / 8, table.hides.begin() + (chunk.last + 7) / 8,
+                  std::uint8_t{0xff});
     }
 }
 
@@ -110,11 +119,11 @@ void ShadowTables::take_quadrics(QuadricSpan quadrics) {
     for (const QuadricSlot& quadric : quadrics) {
         scene_.prefetched_after(quadric);
         const std::size_t i = quadric.slot - scene_.triangle_end();
-        quadrics_[i] = quadric_of(scene_.object(quadric.id).shape);
+        const Object& object = scene_.object(quadric.id);
+        quadrics_[i] = quadric_of(object.shape);
         for (ShadowTable& table : tables_)
             if (!table.quadric_sides.empty())
-                table.quadric_sides[i] =
-                    table.light.finite ? side(table.light, quadrics_[i]) : LightSide::kUnknown;
+                table.quadric_sides[i] = side(table.light, quadrics_[i], object);
     }
 }
 
@@ -122,7 +131,8 @@ void ShadowTables::finish() {
     for_each_index(threads_, tables_.size(), [&](std::size_t light, int) {
         ShadowTable& table = tables_[light];
         if (!scene_.scene().lights[light].casts_shadow) return;
-        table.buffer = LightBuffer(table.light, {scene_, quadrics_, reach_, quadric_error_}, isa_);
+        table.buffer = LightBuffer(
+            table.light, {scene_, quadrics_, reach_, quadric_error_, table.hides.data()}, isa_);
         const auto inside = std::find_if(table.quadric_sides.begin(), table.quadric_sides.end(),
                                          [](LightSide s) { return s != LightSide::kOutside; });
         if (inside == table.quadric_sides.end()) table.quadric_sides.clear();
@@ -158,19 +168,25 @@ bool ShadowTables::outside_of_all(const LightPoint& light) const {
     return false;
 }
 
-LightSide ShadowTables::side(const LightPoint& light, const Quadric& shape) const {
+LightSide ShadowTables::side(const LightPoint& light, const Quadric& shape,
+                             const Object& object) const {
+    if (!object.casts_shadow) return LightSide::kBlind;
+    if (!light.finite) return LightSide::kUnknown;
     const Vector3 from{shape.center[0], shape.center[1], shape.center[2]};
     const double distance = length(from * light.weight - light.toward);
     const double radius = shape.radius * light.weight;
     const double margin = 2 * quadric_error_ * light.weight + 4 * kFloatRoundoff * radius;
     if (distance > radius + margin) return LightSide::kOutside;
-    return distance < radius - margin ? LightSide::kInside : LightSide::kUnknown;
+    if (!(distance < radius - margin)) return LightSide::kUnknown;
+    const bool blind = scene_.front_only(object) && std::holds_alternative<Sphere>(object.shape);
+    return blind ? LightSide::kBlind : LightSide::kInside;
 }
 
 std::size_t ShadowTables::memory_bytes() const {
     std::size_t bytes = quadrics_.size() * sizeof(Quadric) + planes_.size() * sizeof(ShadowPlanes);
     for (const ShadowTable& table : tables_)
-        bytes += table.quadric_sides.size() * sizeof(LightSide) + table.buffer.memory_bytes();
+        bytes += table.hides.size() + table.quadric_sides.size() * sizeof(LightSide) +
+                 table.buffer.memory_bytes();
     return bytes;
 }
 

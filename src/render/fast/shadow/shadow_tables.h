@@ -17,6 +17,7 @@ struct ShadowTable {
 
     LightPoint light;
     std::size_t first_plane = 0;         ///< where its planes begin among those of all lights
+    BigVector<std::uint8_t> hides;       ///< which triangles may hide something: 8 in a byte
     BigVector<LightSide> quadric_sides;  ///< of slots from triangle_end on; empty: all outside
     LightBuffer buffer;
 };
@@ -31,6 +32,12 @@ class ShadowTables {
     void take(const TriangleChunk& chunk);
     void take_quadrics(QuadricSpan quadrics);
     void finish();
+
+    /// Whether the item may hide something from light i. The planes of others are not there.
+    bool hides(std::size_t light, Slot slot) const {
+        return slot >= scene_.triangle_end() ||
+               (tables_[light].hides[slot / 8] >> slot % 8 & 1) != 0;
+    }
 
     const FastScene& scene() const { return scene_; }
     /// Of light i; empty where it casts no shadow.
@@ -55,7 +62,7 @@ class ShadowTables {
     /// Whether the light is a direction or stands where the scene surely does not reach.
     bool outside_of_all(const LightPoint& light) const;
     Quadric quadric_of(const Shape& shape) const;
-    LightSide side(const LightPoint& light, const Quadric& shape) const;
+    LightSide side(const LightPoint& light, const Quadric& shape, const Object& object) const;
 
     const FastScene& scene_;
     InstructionSet isa_;

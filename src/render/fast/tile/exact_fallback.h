@@ -21,7 +21,8 @@ class ExactFallback {
     ExactFallback(const FastScene& scene, const CameraRays& camera)
         : scene_(scene),
           camera_(camera),
-          kernel_(scene.scene(), scene.primitives(), scene.triangle_box(), std::nullopt) {}
+          kernel_(scene.scene(), scene.primitives(), scene.triangle_box(), std::nullopt,
+                  scene.back_faces()) {}
 
     /// A hit found exactly: bounds on 1 / t in the local frame, and for a quadric its
     /// normal.

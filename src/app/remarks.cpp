@@ -1,0 +1,175 @@
+#include "remarks.h"
+
+#include <algorithm>
+#include <optional>
+#include <unordered_map>
+#include <unordered_set>
+
+#include "nuvo/geometry/predicates.h"
+#include "nuvo/render/shading.h"
+#include "nuvo/scene/x3d.h"
+#include "text.h"
+
+namespace nuvo::app {
+namespace {
+
+std::uint32_t packed(const Rgb8& color) {
+    return std::uint32_t{color.r} << 16 | std::uint32_t{color.g} << 8 | color.b;
+}
+
+/// What the picture shows may be nothing but background, or nothing but what needs no light.
+struct Suspicion {
+    bool empty = true;
+    bool dark = true;
+};
+
+Suspicion suspicion(const Scene& scene, const Image& picture) {
+    std::unordered_set<std::uint32_t> glowing;
+    Suspicion may;
+    may.dark = false;
+    for (const Material& material : scene.materials) {
+        glowing.insert(packed(quantized(material.emissive_color)));
+        may.dark = may.dark || material.lit;
+    }
+    const RayGenerator rays(scene.camera, {picture.width(), picture.height()});
+    const auto n =
+        static_cast<std::uint64_t>(picture.width()) * static_cast<std::uint64_t>(picture.height());
+    // All over the picture, so that what shows somewhere is met soon: a prime beyond any side
+    // visits each pixel once.
+    constexpr std::uint64_t kStride = 1'000'003;
+    const auto width = static_cast<std::uint64_t>(picture.width());
+    for (std::uint64_t i = 0; i < n && (may.empty || may.dark); ++i) {
+        const std::uint64_t at = i * kStride % n;
+        const int x = static_cast<int>(at % width);
+        const int y = static_cast<int>(at / width);
+        const std::uint32_t color = packed(picture.at(x, y));
+        const bool background =
+            color == packed(quantized(scene.background.color(rays.ray(x, y).direction)));
+        may.empty = may.empty && background;
+        may.dark = may.dark && (background || glowing.contains(color));
+    }
+    return may;
+}
+
+/// What the rays of a picture met.
+struct Met {
+    std::size_t any = 0;
+    std::size_t lit = 0;     ///< that reflects light
+    std::size_t alight = 0;  ///< where some light adds to what is emitted
+};
+
+Met met_by(const Scene& scene, const Image& picture, const Answers& answers) {
+    std::unordered_map<std::int64_t, const Material*> materials;
+    for (const Object& object : scene.objects) {
+        const Material& material = scene.materials[object.material];
+        const auto* mesh = std::get_if<TriangleMesh>(&object.shape);
+        const bool reflects = material.diffuse_color != Color{} ||
+                              material.specular_color != Color{} ||
+                              (mesh != nullptr && !mesh->colors.empty());
+        if (material.lit && reflects) materials[object.shape_index] = &material;
+    }
+    const RayGenerator generator(scene.camera, {picture.width(), picture.height()});
+    Met met;
+    std::vector<Ray> row(static_cast<std::size_t>(picture.width()));
+    for (int y = 0; y < picture.height(); ++y) {
+        for (int x = 0; x < picture.width(); ++x)
+            row[static_cast<std::size_t>(x)] = generator.ray(x, y);
+        const std::vector<RayAnswer> found = answers(row);
+        for (int x = 0; x < picture.width(); ++x) {
+            const RayAnswer& answer = found[static_cast<std::size_t>(x)];
+            if (!answer.hit) continue;
+            ++met.any;
+            const auto material = materials.find(answer.shape);
+            if (material == materials.end()) continue;
+            ++met.lit;
+            if (packed(picture.at(x, y)) != packed(quantized(material->second->emissive_color)))
+                ++met.alight;
+        }
+    }
+    return met;
+}
+
+Bounds3 bounds_of(const Scene& scene) {
+    Bounds3 box;
+    for (const Object& object : scene.objects) box = box.extended(bounds(object.shape));
+    return box;
+}
+
+std::string nothing_met(const Scene& scene) {
+    const Bounds3 box = bounds_of(scene);
+    if (box.empty()) return "no ray met anything: there is no shape to draw";
+    return format(
+        "no ray met anything: the shapes lie between %.6g %.6g %.6g and %.6g %.6g %.6g, the camera "
+        "is at %.6g %.6g %.6g (--viewpoint=fit looks at them)",
+        box.min.x, box.min.y, box.min.z, box.max.x, box.max.y, box.max.z, scene.camera.position.x,
+        scene.camera.position.y, scene.camera.position.z);
+}
+
+std::string all_dark(const Scene& scene) {
+    return "no light adds anything to what is seen, of " + counted(scene.lights.size(), "light") +
+           " (--headlight=on adds one at the camera)";
+}
+
+/// Whether the ray meets the back of a triangle of the mesh before any front.
+bool sees_back(const TriangleMesh& mesh, const Ray& ray) {
+    const ExactRay exact(ray);
+    StageCounts counts;
+    double nearest = std::numeric_limits<double>::infinity();
+    bool back = false;
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        const Triangle triangle = mesh.triangle(i);
+        const std::optional<Root> root = hit(exact, triangle, counts);
+        if (!root || root->t >= nearest) continue;
+        nearest = root->t;
+        back = !hit(exact, triangle, counts, Sides::kFront);
+    }
+    return back;
+}
+
+/// Whether the point is surrounded by the shape's inner side.
+bool is_inside(const Shape& shape, const Point3& point) {
+    if (!bounds(shape).contains(point)) return false;
+    const auto sees_back_along = [&](const Vector3& direction) {
+        const Ray ray{point, direction};
+        if (const auto* mesh = std::get_if<TriangleMesh>(&shape)) return sees_back(*mesh, ray);
+        StageCounts counts;
+        const auto found = [&](const auto& round) {
+            const std::optional<SphereHit> hit = nuvo::hit(ExactRay(ray), round, counts);
+            return hit && hit->which == SphereRoot::kFar;
+        };
+        if (const auto* sphere = std::get_if<Sphere>(&shape)) return found(*sphere);
+        return found(std::get<Ellipsoid>(shape));
+    };
+    const Vector3 directions[] = {{0, 1, 0},  {0, -1, 0}, {1, 0, 0},
+                                  {-1, 0, 0}, {0, 0, 1},  {0, 0, -1}};
+    return std::all_of(std::begin(directions), std::end(directions), sees_back_along);
+}
+
+std::optional<std::string> inside_solid(const Scene& scene) {
+    for (const Object& object : scene.objects)
+        if (object.solid && is_inside(object.shape, scene.camera.position))
+            return "the camera stands inside Shape " + std::to_string(object.shape_index) +
+                   " (from 0), which is solid: from within it is invisible (--back-faces=draw "
+                   "shows it)";
+    return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<std::string> remarks(const Scene& scene, const Profile& profile, const Image& picture,
+                                 const Answers& answers) {
+    std::vector<std::string> lines;
+    const Suspicion may = suspicion(scene, picture);
+    if (may.empty || may.dark) {
+        const Met met = met_by(scene, picture, answers);
+        if (met.any == 0)
+            lines.push_back(nothing_met(scene));
+        else if (may.dark && met.lit > 0 && met.alight == 0)
+            lines.push_back(all_dark(scene));
+    }
+    if (profile.back_faces == BackFaces::kSolid)
+        if (const auto line = inside_solid(scene)) lines.push_back(*line);
+    return lines;
+}
+
+}  // namespace nuvo::app
