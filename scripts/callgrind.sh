@@ -38,7 +38,7 @@ nuvo_quietly ninja -C "$build" nuvo
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-# calls FILE PATTERN: how often functions whose name matches were called.
+# calls FILE PATTERN: how often functions whose name matches were called, without their lambdas.
 calls() {
     awk -v pattern="$2" '
         /^c?fn=/ {
@@ -51,7 +51,7 @@ calls() {
         }
         /^calls=/ {
             count = substr($1, 7)
-            if (names[callee] ~ pattern) sum += count
+            if (names[callee] ~ pattern && names[callee] !~ /lambda/) sum += count
         }
         END { print sum + 0 }' "$1"
 }
@@ -67,8 +67,8 @@ for scene in "${scenes[@]}"; do
         counted=$(tr -d ' \n' <"$work/counts.json" |
             sed -E 's/.*"intersection_tests":([0-9]+),"voxel_searches":([0-9]+).*/\1 \2/')
         # One call of the kernel for one ray and one item of a leaf; one call of next.
-        called="$(calls "$work/out" 'PlainKernel<float>::(closest|shadow_t)\(') $(
-            calls "$work/out" 'NudgedWalk<float, nuvo::HashLocator>::next\(')"
+        called="$(calls "$work/out" '^nuvo::PlainKernel<float>::(closest|shadow_t)\(') $(
+            calls "$work/out" '^nuvo::NudgedWalk<float, nuvo::HashLocator>::next\(')"
         verdict=equal
         [ "$counted" = "$called" ] || verdict=DIFFERENT status=1
         printf '%-14s %-11s counters %s, callgrind %s: %s\n' "$scene" "$type" "$counted" \
