@@ -25,7 +25,7 @@ Material any_material(Random& random) {
     material.diffuse_color = any_color(random);
     material.ambient_intensity = random.chance() ? 1 : random.uniform(0, 1);
     if (random.chance()) material.specular_color = any_color(random);
-    constexpr double kShininess[] = {0, 1, 0.2, 1e-3, 1e-5};
+    constexpr double kShininess[] = {0, 1, 0.2, 1e-3, 1e-60};
     material.shininess = random.chance() ? random.uniform(0, 1) : kShininess[random.below(5)];
     if (random.below(4) == 0) material.emissive_color = any_color(random) * 0.3;
     material.lit = random.below(8) != 0;
