@@ -30,6 +30,9 @@ known_file() {
         compgen -G "docs/$1" >/dev/null
 }
 
+# Here-strings, as process substitution asks for /proc.
+tokens=$(grep -oE '`[^`]+`' "$map" | tr -d '`' | sort -u)
+links=$(grep -oE '\]\([^)#]+' "$map" | sed 's/^](//' | grep -v '^https\?:' | sort -u)
 names=0
 while IFS= read -r token; do
     if [[ $token =~ ^([A-Za-z0-9]+/)?([A-Z][A-Za-z0-9]+\.([A-Z][A-Za-z0-9]*|\*))$ ]]; then
@@ -39,11 +42,11 @@ while IFS= read -r token; do
         names=$((names + 1))
         known_file "$token" || fault "there is no file $token"
     fi
-done < <(grep -oE '`[^`]+`' "$map" | tr -d '`' | sort -u)
+done <<<"$tokens"
 while IFS= read -r link; do
     names=$((names + 1))
     known_file "$link" || fault "there is no file $link"
-done < <(grep -oE '\]\([^)#]+' "$map" | sed 's/^](//' | grep -v '^https\?:' | sort -u)
+done <<<"$links"
 
 [ $names -ge 50 ] || fault "only $names names were found in it: is it read as it should be?"
 [ $faults -eq 0 ]
