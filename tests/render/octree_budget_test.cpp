@@ -11,7 +11,7 @@ namespace nuvo {
 namespace {
 
 Scene scene_of(const std::string& name) {
-    return x3d::read_file(NUVO_SOURCE_DIR "/testfiles/budget/" + name + ".x3d");
+    return x3d::read_file(NUVO_SOURCE_DIR "/tests/render/budget/" + name + ".x3d");
 }
 
 Profile exact(OctreeType type) {
@@ -46,7 +46,7 @@ TEST(OctreeBudget, CrowdedScenesTakeFewTestsARay) {
 }
 
 TEST(OctreeBudget, CrowdedScenesAreThePicturesOfBruteForce) {
-    const Resolution size{16, 12};
+    const Resolution size{8, 6};
     for (const char* name : {"long-cylinders", "molecule", "rough-terrain", "stadium"}) {
         const Scene scene = scene_of(name);
         const Primitives primitives = flatten(scene, LeafContent::kPrimitives);
@@ -72,7 +72,7 @@ TEST(OctreeBudget, CoincidentTrianglesAreNotCopied) {
 
 // The ground's width is the only 1000000 of the file.
 TEST(OctreeBudget, AWideGroundCostsLittle) {
-    std::ifstream in(NUVO_SOURCE_DIR "/testfiles/budget/stadium.x3d");
+    std::ifstream in(NUVO_SOURCE_DIR "/tests/render/budget/stadium.x3d");
     const std::string wide((std::istreambuf_iterator<char>(in)), {});
     const auto on_ground = [&](const std::string& width) {
         std::string text = wide;
