@@ -1,11 +1,8 @@
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <vector>
-
 #include "fast/primary/camera_triangles.h"
 #include "fast/scene/fast_scene.h"
+#include "fast/scene/pair_cache.h"
 
 // Which of two triangles is nearer, for all pixels at once. On the ray of the pixel coordinates X,
 // Y the planes of two triangles are met at t and t'; the difference 1 / t - 1 / t' is affine in X,
@@ -31,27 +28,15 @@ class PlaneOrders {
         : scene_(scene), camera_(camera) {}
 
     PlaneOrder between(Slot first, Slot second) {
-        if (kept_.empty()) kept_.resize(kKept);
-        Kept& kept = kept_[(first * 0x9e3779b1U + second * 0x85ebca6bU) >> (32 - kKeptLog2)];
-        if (kept.first != first || kept.second != second)
-            kept = {first, second, order_of(first, second)};
-        return kept.order;
+        return kept_.of({first, second}, [&] { return order_of(first, second); });
     }
 
   private:
-    static constexpr unsigned kKeptLog2 = 14;
-    static constexpr std::size_t kKept = std::size_t{1} << kKeptLog2;
-    struct Kept {
-        Slot first = kNoSlot;
-        Slot second = kNoSlot;
-        PlaneOrder order;
-    };
-
     PlaneOrder order_of(Slot first, Slot second) const;
 
     const FastScene& scene_;
     const CameraRays& camera_;
-    std::vector<Kept> kept_;
+    PairCache<PlaneOrder> kept_;
 };
 
 }  // namespace nuvo

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "fast/scene/fast_scene.h"
+#include "fast/scene/pair_cache.h"
 
 namespace nuvo {
 
@@ -16,29 +16,15 @@ class FreePairs {
 
     /// True: surely no point of `lit` is hidden from the light by `occluder`.
     bool free(Slot lit, Slot occluder, std::size_t light) {
-        if (kept_.empty()) kept_.resize(kKept);
-        const auto number = static_cast<std::uint32_t>(light);
-        Kept& kept = kept_[(lit * 0x9e3779b1U + occluder * 0x85ebca6bU + number * 0xc2b2ae35U) >>
-                           (32 - kKeptLog2)];
-        if (kept.lit != lit || kept.occluder != occluder || kept.light != number)
-            kept = {lit, occluder, number, is_free(lit, occluder, light)};
-        return kept.free;
+        return kept_.of({lit, occluder, static_cast<std::uint32_t>(light)},
+                        [&] { return is_free(lit, occluder, light); });
     }
 
   private:
-    static constexpr unsigned kKeptLog2 = 14;
-    static constexpr std::size_t kKept = std::size_t{1} << kKeptLog2;
-    struct Kept {
-        Slot lit = kNoSlot;
-        Slot occluder = kNoSlot;
-        std::uint32_t light = 0;
-        bool free = false;
-    };
-
     bool is_free(Slot lit, Slot occluder, std::size_t light) const;
 
     const FastScene& scene_;
-    std::vector<Kept> kept_;
+    PairCache<bool> kept_;
 };
 
 }  // namespace nuvo
