@@ -10,6 +10,8 @@ usage: scripts/bench_peers.sh [part]... [flag]...
 Parts (all unless some are given):
   --scenes[=LIST]  frames, builds, single rays, price of exactness and threads of the thesis' scenes,
                    far and near; LIST: of teapot trianglemesh both concentric clumped, with commas
+  --people         scenes like those people render, about 10^6 triangles each: terrain, interior, city from
+                   the street and from above, assembly; a molecule; a ball on floors 10 to 10^6 times as wide
   --large          100,000 octahedra (800,000 triangles) and 1,000,000 spheres, far and near
   --growth         10^3 to 10^7 triangles
   --isa            every instruction set
@@ -37,7 +39,7 @@ while [ $# -gt 0 ]; do
         --scenes=*)
             IFS=, read -ra scenes <<<"${1#*=}"
             parts+=(scenes) ;;
-        --scenes | --large | --growth | --isa | --povray | --kernels) parts+=("${1#--}") ;;
+        --scenes | --people | --large | --growth | --isa | --povray | --kernels) parts+=("${1#--}") ;;
         --quick) quick=1 ;;
         --docs) docs=1 ;;
         --rounds=*) rounds=${1#*=} ;;
@@ -49,7 +51,7 @@ while [ $# -gt 0 ]; do
 done
 [[ $rounds =~ ^[1-9][0-9]{0,3}$ ]] || fail "--rounds=$rounds: must be a whole number from 1 on"
 [ -n "$out" ] || fail "--out needs a folder"
-[ ${#parts[@]} -gt 0 ] || parts=(scenes large growth isa povray kernels)
+[ ${#parts[@]} -gt 0 ] || parts=(scenes people large growth isa povray kernels)
 [ $quick -eq 0 ] || rounds=$((rounds < 5 ? rounds : 5))
 few=$(((rounds + 2) / 3))
 
@@ -86,6 +88,25 @@ run_scenes() {
         measure "frame-$name-near" "$(scene "$name-near" "$name" --camera=near)" \
             --rounds="$rounds" --parts=frame,check,exactness
     done
+}
+
+# people NAME SCENE [option]...: a scene of the part --people.
+people() {
+    local name=$1
+    measure "people-$name" "$(scene "people-$name" "${@:2}")" --rounds=$few \
+        --parts=frame,check,rays,exactness
+}
+
+run_people() {
+    local width large=1
+    [ $quick -eq 0 ] || large=10
+    people terrain terrain --count=$((1000000 / large))
+    people interior interior --count=$((70 / large))
+    people city-street city --count=$((90000 / large)) --camera=near
+    people city-above city --count=$((90000 / large))
+    people assembly assembly --count=$((36 / large))
+    people molecule molecule --count=$((47681 / large))
+    for width in 10 1000 100000 1000000; do people floor-$width floor --count=$width; done
 }
 
 run_large() {

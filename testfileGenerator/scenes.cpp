@@ -7,6 +7,7 @@ namespace nuvo::generator {
 namespace {
 
 constexpr Takes kCamera{.camera = true};
+constexpr Takes kCount{.count = true};
 constexpr Takes kCameraAndCount{.camera = true, .count = true};
 
 constexpr std::array kScenes{
@@ -32,6 +33,13 @@ constexpr std::array kScenes{
     Scene{"octahedra", "any number (--count=N) of octahedra like test 2's, one mesh",
           many_octahedra, kCameraAndCount},
     Scene{"spheres", "any number (--count=N) of spheres at random", many_spheres, kCameraAndCount},
+    Scene{"terrain", "a landscape of about --count=N triangles", terrain_scene, kCount},
+    Scene{"city", "--count=N houses, from above or (--camera=near) from the street", city_scene,
+          kCameraAndCount},
+    Scene{"interior", "--count=N rooms of 14,000 triangles, from within", interior_scene, kCount},
+    Scene{"assembly", "--count=N cars of 28,500 triangles", assembly_scene, kCount},
+    Scene{"floor", "a ball on a floor --count=N times as wide", floor_scene, kCount},
+    Scene{"molecule", "a chain of --count=N spheres", molecule_scene, kCount},
 };
 
 }  // namespace

@@ -71,4 +71,12 @@ std::string showcase_scene(const Variation& variation);
 std::string many_octahedra(const Variation& variation);
 std::string many_spheres(const Variation& variation);
 
+// Scenes of any size like those that people render, for measuring.
+std::string terrain_scene(const Variation& variation);
+std::string city_scene(const Variation& variation);
+std::string interior_scene(const Variation& variation);
+std::string assembly_scene(const Variation& variation);
+std::string floor_scene(const Variation& variation);
+std::string molecule_scene(const Variation& variation);
+
 }  // namespace nuvo::generator

@@ -19,6 +19,10 @@ TITLES = {"teapot": "teapot, 25,440 triangles", "trianglemesh": "test 1, 5,824 t
           "both": "test 2, 8,000 triangles", "concentric": "test 3, 5,985 spheres",
           "clumped": "test 4, 25,600 triangles",
           "octahedra1e5": "100,000 octahedra, 800,000 triangles", "spheres1e6": "1,000,000 spheres"}
+PEOPLE = {"terrain": "terrain", "interior": "interior", "city-street": "city from the street",
+          "city-above": "city from above", "assembly": "assembly of cars", "molecule": "molecule",
+          "floor-10": "ball on a floor 10 times as wide", "floor-1000": "10^3 times",
+          "floor-100000": "10^5 times", "floor-1000000": "10^6 times"}
 # Thesis 5.8: seconds of a frame, generation included, non-uniform octree, i5-2500K.
 PUBLISHED = {"teapot": 213.912, "trianglemesh": 9.899, "both": 12.533, "concentric": 8.382,
              "clumped": 14.386}
@@ -111,6 +115,28 @@ class Report:
                       "Embree, ms", "nuvo, ms", "times as fast", "with a build from scratch",
                       "pixels unlike Embree's: at all / visibly",
                       "unlike the exact profile's"], rows)
+
+    def table_people(self):
+        rows = []
+        for name, title in PEOPLE.items():
+            result = self.results.get(f"people-{name}")
+            if result is None or "ours" not in result:
+                continue
+            mine, theirs = ours(result, self.type), result["embree"]
+            rays = result.get("rays")
+            price = result.get("exactness")
+            primitives = result["triangles"] + result["spheres"]
+            rows.append([title, f"{primitives:,}", with_interval(theirs["frame"]),
+                         with_interval(mine["frame"]), ratio(theirs["frame"], mine["frame"]),
+                         ratio(theirs["scratch"], mine["scratch"]),
+                         ratio(rays["embree"], rays[f"ours_{self.type}"]) if rays else "-",
+                         ratio(price["exact"], price["plain"]) if price else "-",
+                         f"{mine['table_bytes'] / primitives:.0f}",
+                         result.get("pixels_unlike_exact", "-")])
+        return table(["scene", "primitives", "Embree, ms", "nuvo, ms", "frame: times as fast",
+                      "with a build from scratch", "single rays", "price of exactness",
+                      "tables of a frame, bytes a primitive", "pixels unlike the exact profile's"],
+                     rows)
 
     def table_stages(self):
         rows = []

@@ -383,6 +383,25 @@ TEST(Generator, WritesAsManySpheresOrOctahedraAsAsked) {
     EXPECT_FALSE(octahedra == generate("octahedra --count=125").text);
 }
 
+TEST(Generator, WritesScenesLikeThosePeopleRenderInTheSizeAsked) {
+    const auto triangles = [](const std::string& arguments) {
+        const std::string text = generate(arguments).text;
+        EXPECT_EQ(occurrences(text, "<Shape>"), 1U) << arguments;
+        return number_lists(text, " index='").at(0).size() / 3;
+    };
+    EXPECT_EQ(triangles("terrain --count=1250"), 2U * 25 * 25);
+    // Houses and the ground, boxes of 12 triangles.
+    EXPECT_EQ(triangles("city --count=10"), 12U * (10 + 1));
+    EXPECT_EQ(triangles("city --count=10 --camera=near"), 12U * (10 + 1));
+    // A room: floor, ceiling, four walls, four legs, a table; balls after 4 and 3 subdivisions.
+    EXPECT_EQ(triangles("interior --count=2"), 2U * (12 * 11 + 2 * 20 * 256 + 3 * 20 * 64));
+    // A car: two boxes, four wheels, a hundred bolts after one subdivision.
+    EXPECT_EQ(triangles("assembly --count=2"), 2U * (2 * 12 + 4 * 20 * 256 + 100 * 20 * 4));
+    EXPECT_EQ(triangles("floor --count=1000"), 20U * 4096 + 12);
+    EXPECT_EQ(occurrences(generate("molecule --count=50").text, "<Sphere "), 50U);
+    EXPECT_EQ(occurrences(generate("molecule --count=50 --seed=9").text, "<Sphere "), 50U);
+}
+
 TEST(Generator, RefusesMisuseWithTwoAndOneLineThatSaysWhy) {
     const TemporaryFolder folder;
     const std::string out = " --out=" + (folder.path() / "never").string();

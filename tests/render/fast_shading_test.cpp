@@ -47,17 +47,20 @@ class ShadedPicture {
         const PrimaryStage primary(isa);
         ShadingStage stage(fast_, camera_, tables, isa, redo_exactly);
         Image image(size_.width, size_.height);
+        const auto macro = std::make_unique<MacroTile>();
         const auto tile = std::make_unique<Tile>();
         Shaded result;
-        for (int y = 0; y < size_.height; y += kTileSide)
-            for (int x = 0; x < size_.width; x += kTileSide) {
-                tile->x = x;
-                tile->y = y;
-                primary.trace(job, *tile);
-                stage.surface(*tile);
-                for (std::size_t light = 0; light < scene_.lights.size(); ++light)
-                    shine(stage, *tile, light);
-                result.redone += stage.finish(*tile, fallback_, image);
+        for (macro->y = 0; macro->y < size_.height; macro->y += kMacroSide)
+            for (macro->x = 0; macro->x < size_.width; macro->x += kMacroSide) {
+                primary.trace(job, *macro);
+                for (int i = 0; i < MacroTile::kTiles; ++i) {
+                    macro->copy(i, true, *tile);
+                    if (tile->x >= size_.width || tile->y >= size_.height) continue;
+                    stage.surface(*tile);
+                    for (std::size_t light = 0; light < scene_.lights.size(); ++light)
+                        shine(stage, *tile, light);
+                    result.redone += stage.finish(*tile, fallback_, image);
+                }
             }
         for (int y = 0; y < size_.height; ++y)
             for (int x = 0; x < size_.width; ++x)

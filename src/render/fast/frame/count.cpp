@@ -36,11 +36,15 @@ RayCounts count_rays(const FastScene& scene, InstructionSet isa, Resolution reso
     const PrimaryStage primary(isa);
     RayCounts counts;
     counts.primary_rays = std::uint64_t(resolution.width) * std::uint64_t(resolution.height);
+    const auto macro = std::make_unique<MacroTile>();
     Tile tile;
-    for (tile.y = 0; tile.y < resolution.height; tile.y += kTileSide) {
-        for (tile.x = 0; tile.x < resolution.width; tile.x += kTileSide) {
-            primary.trace(*job, tile);
-            counts.shadow_rays += shadow_rays(scene, fallback, tile);
+    for (macro->y = 0; macro->y < resolution.height; macro->y += kMacroSide) {
+        for (macro->x = 0; macro->x < resolution.width; macro->x += kMacroSide) {
+            primary.trace(*job, *macro);
+            for (int i = 0; i < MacroTile::kTiles; ++i) {
+                macro->copy(i, false, tile);
+                counts.shadow_rays += shadow_rays(scene, fallback, tile);
+            }
         }
     }
     return counts;

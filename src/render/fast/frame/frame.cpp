@@ -19,9 +19,6 @@
 namespace nuvo {
 namespace {
 
-// The counter is locked for each few tiles: a lock waits for all stores to the picture.
-constexpr std::size_t kTilesAtOnce = 16;
-
 double seconds_now() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
         .count();
@@ -47,7 +44,8 @@ class StageClock {
 
 struct Frame::Tables {
     Tables(const FastScene& scene, const FastOptions& options, Resolution resolution)
-        : rays(scene.scene().camera, resolution, scene.frame()), tiles(tiles_in_order(resolution)) {
+        : rays(scene.scene().camera, resolution, scene.frame()),
+          tiles(tiles_in_order(resolution, kMacroSide)) {
         shadow.emplace(scene, options.isa, options.threads, TableFilling::kLater);
         camera.emplace(scene, rays, options.isa, options.threads, TableFilling::kLater);
         const auto surfaces = std::make_shared<ShadingTables>(scene, rays, camera->spheres,
@@ -77,10 +75,23 @@ class Frame::Worker {
     void trace(TilePlace place, Image& image, FastTimes* times) {
         FastTimes spent;
         StageClock clock(times != nullptr);
-        tile_.x = place.column * kTileSide;
-        tile_.y = place.row * kTileSide;
-        primary_.trace(job_, tile_);
+        macro_.x = place.column * kMacroSide;
+        macro_.y = place.row * kMacroSide;
+        primary_.trace(job_, macro_);
         clock.add_to(spent.primary);
+        const bool quadrics = scene_.slot_end() != scene_.triangle_end();
+        for (int i = 0; i < MacroTile::kTiles; ++i) {
+            macro_.copy(i, quadrics, tile_);
+            if (tile_.x < image.width() && tile_.y < image.height()) shade(image, spent, clock);
+        }
+        if (times == nullptr) return;
+        times->primary += spent.primary;
+        times->shadow += spent.shadow;
+        times->shading += spent.shading;
+    }
+
+  private:
+    void shade(Image& image, FastTimes& spent, StageClock& clock) {
         if (hit_anything()) {
             shading_.surface(tile_);
             for (std::size_t light = 0; light < scene_.scene().lights.size(); ++light) {
@@ -95,13 +106,8 @@ class Frame::Worker {
         }
         shading_.finish(tile_, fallback_, image);
         clock.add_to(spent.shading);
-        if (times == nullptr) return;
-        times->primary += spent.primary;
-        times->shadow += spent.shadow;
-        times->shading += spent.shading;
     }
 
-  private:
     bool hit_anything() const {
         return std::any_of(std::begin(tile_.hit), std::end(tile_.hit),
                            [](std::uint16_t lanes) { return lanes != 0; });
@@ -113,6 +119,7 @@ class Frame::Worker {
     PrimaryStage primary_;
     ShadowStage shadow_;
     ShadingStage shading_;
+    MacroTile macro_{};
     Tile tile_{};
 };
 
@@ -137,15 +144,11 @@ Image Frame::render(FastTimes* times) {
     const auto threads = static_cast<std::size_t>(options_.threads);
     std::vector<FastTimes> spent(threads);
     std::vector<std::unique_ptr<Worker>> workers(threads);  // made by their threads
-    for_each_index(options_.threads, (tiles.size() + kTilesAtOnce - 1) / kTilesAtOnce,
-                   [&](std::size_t group, int thread) {
-                       std::unique_ptr<Worker>& worker = workers[thread];
-                       if (!worker) worker = std::make_unique<Worker>(scene_, *tables_, options_);
-                       const std::size_t first = group * kTilesAtOnce;
-                       const std::size_t last = std::min(first + kTilesAtOnce, tiles.size());
-                       for (std::size_t i = first; i < last; ++i)
-                           worker->trace(tiles[i], image, times ? &spent[thread] : nullptr);
-                   });
+    for_each_index(options_.threads, tiles.size(), [&](std::size_t i, int thread) {
+        std::unique_ptr<Worker>& worker = workers[thread];
+        if (!worker) worker = std::make_unique<Worker>(scene_, *tables_, options_);
+        worker->trace(tiles[i], image, times ? &spent[thread] : nullptr);
+    });
     if (times != nullptr) {
         times->tables += table_seconds_;
         for (const FastTimes& part : spent) {

@@ -47,16 +47,9 @@ CameraSphere make_sphere(const Point3& eye, double scale, const Point3& center, 
 CameraTables::CameraTables(const FastScene& scene, const CameraRays& camera, InstructionSet isa,
                            int threads, TableFilling filling)
     : scene_(scene), camera_(camera), isa_(isa), threads_(threads) {
-    triangles.resize(scene.triangle_end());
-    by_slot_.resize(scene.slot_end());
     spheres.resize(scene.slot_end() - scene.triangle_end());
+    boxes.resize(spheres.size());
     if (filling == TableFilling::kNow) fill_tables(scene, threads, *this);
-}
-
-void CameraTables::take(const TriangleChunk& chunk) {
-    make_camera_triangles({camera_, scene_.scene().camera.position, scene_.frame().scale,
-                           triangles.data(), by_slot_.data()},
-                          chunk, isa_);
 }
 
 void CameraTables::take_quadrics(QuadricSpan quadrics) {
@@ -86,22 +79,11 @@ void CameraTables::take_quadrics(QuadricSpan quadrics) {
 }
 
 void CameraTables::finish() {
-    const Slot first = scene_.triangle_end();
     for_each_part(threads_, spheres.size(), [&](std::size_t begin, std::size_t end) {
-        make_sphere_boxes(isa_, camera_, spheres.data() + begin, end - begin,
-                          by_slot_.data() + first + begin);
+        make_sphere_boxes(isa_, camera_, spheres.data() + begin, end - begin, boxes.data() + begin);
         for (std::size_t i = begin; i < end; ++i)
-            if (spheres[i].hidden) by_slot_[first + i] = kNoPixels;
+            if (spheres[i].hidden) boxes[i] = kNoPixels;
     });
-    const std::vector<std::uint32_t>& items = scene_.octree().items;
-    boxes.resize(items.size());
-    for_each_part(threads_, items.size(), [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            boxes[i] = by_slot_[items[i]];
-            boxes[i].slot = items[i];
-        }
-    });
-    by_slot_ = {};
 }
 
 }  // namespace nuvo

@@ -49,12 +49,12 @@ struct alignas(16) PixelBox {
     std::uint32_t columns;  ///< the first | the one after the last << 16
     std::uint32_t rows;     ///< the same
     float nearest;          ///< bounds q = 1 / t of its hits from above
-    Slot slot;
+    std::uint32_t unused;
 };
 static_assert(sizeof(PixelBox) == 16);
 inline constexpr PixelBox kNoPixels{};
 
-/// Made anew for each picture.
+/// Of the spheres and ellipsoids; made anew for each picture.
 class CameraTables {
   public:
     /// Keeps references.
@@ -62,25 +62,22 @@ class CameraTables {
                  int threads = 1, TableFilling filling = TableFilling::kNow);
 
     /// For fill_tables(); by several threads at a time.
-    void take(const TriangleChunk& chunk);
+    void take(const TriangleChunk&) {}
     void take_quadrics(QuadricSpan quadrics);
     void finish();
 
     std::size_t memory_bytes() const {
-        return triangles.size() * sizeof(CameraTriangle) + spheres.size() * sizeof(CameraSphere) +
-               boxes.size() * sizeof(PixelBox);
+        return spheres.size() * sizeof(CameraSphere) + boxes.size() * sizeof(PixelBox);
     }
 
-    BigVector<CameraTriangle> triangles;  ///< by slot
-    BigVector<CameraSphere> spheres;      ///< by slot - triangle_end()
-    BigVector<PixelBox> boxes;            ///< by reference: of CompactOctree::items
+    BigVector<CameraSphere> spheres;  ///< by slot - triangle_end()
+    BigVector<PixelBox> boxes;        ///< the same
 
   private:
     const FastScene& scene_;
     const CameraRays& camera_;
     InstructionSet isa_;
     int threads_;
-    BigVector<PixelBox> by_slot_;  // until finish()
 };
 
 }  // namespace nuvo

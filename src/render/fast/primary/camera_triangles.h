@@ -24,19 +24,13 @@ struct CameraExtent {
 
 struct CameraTrianglesJob {
     const CameraRays& camera;
-    Point3 eye;           ///< world space
-    double scale;         ///< of the local frame
-    CameraTriangle* out;  ///< of slot 0
-    PixelBox* boxes;      ///< of slot 0
+    Point3 eye;    ///< world space
+    double scale;  ///< of the local frame
 };
 
 /// The record of a triangle of which double arithmetic cannot tell it, and no pixels at all where
 /// the eye lies in its plane or behind a front that alone is visible: from there it is never hit.
 void make_exact_camera_triangle(const CameraTrianglesJob& job, const Triangle& triangle,
                                 bool front_only, CameraTriangle& out, PixelBox& box);
-
-/// Makes the records and pixel boxes of a chunk.
-void make_camera_triangles(const CameraTrianglesJob& job, const TriangleChunk& chunk,
-                           InstructionSet isa);
 
 }  // namespace nuvo

@@ -10,18 +10,22 @@
 #include <hwy/cache_control.h>
 
 #include "fast/primary/box_culling.h"
+#include "fast/primary/camera_triangle_lanes.h"
+#include "fast/primary/corner_fetch.h"
+#include "fast/primary/frustum.h"
+#include "fast/primary/pixel_box_lanes.h"
 #include "fast/primary/primary_lanes.h"
 #include "fast/primary/sphere_lanes.h"
 #include "fast/simd/lanes.h"
-#include "fast/tile/beam.h"
 #include "nuvo/math/error_bounds.h"
 
-// The items of leaves wait until there are 16 of them, whose pixel boxes are then compared with the
-// tile's blocks and what these show so far, all at once: few are left. Those are tested as a
-// rasterizer tests them, in the order of the walk: coarse, against 16 blocks of pixels at once,
-// unless they show in a few blocks only; then fine, 16 pixels at once (Abrash 2009, "Rasterization
-// on Larrabee"). Each step asks for the memory that the next one reads. Whatever a float within its
-// bound leaves open, the fallback decides at once.
+// A macro tile's nearest hits form a pyramid: of each lane, of each block, of each tile and of all.
+// Voxels, items and blocks that cannot be nearer are left out by it. Triangles are made ready 16 at
+// a time when their leaves are met: first their pixel boxes, then, of batches that still matter,
+// their edge functions. They are tested as a rasterizer tests them: coarse, against 16 blocks of
+// pixels at once, unless they show in a few blocks only; then fine, 16 pixels at once (Abrash 2009,
+// "Rasterization on Larrabee"). Spheres wait by tile, for their functions are those of a tile.
+// Whatever a float within its bound leaves open, the exact fallback decides at once.
 
 HWY_BEFORE_NAMESPACE();
 namespace nuvo::HWY_NAMESPACE {
@@ -30,39 +34,56 @@ using Floats4 = Lanes<float, 4>;
 
 class PrimaryTracer {
   public:
-    PrimaryTracer(PrimaryJob& job, Tile& tile)
-        : job_(job), tile_(tile), rays_(job.camera, tile), culling_(tile) {
+    PrimaryTracer(PrimaryJob& job, MacroTile& tile)
+        : job_(job),
+          tile_(tile),
+          culling_(tile),
+          box_maker_(job.camera),
+          triangle_maker_(job.camera, job.scene.scene().camera.position, job.scene.frame().scale),
+          corners_(job.scene) {
         clear();
     }
 
     void run() {
+        const CompactOctree& octree = job_.scene.octree();
+        const double reach = std::max(max_norm(octree.bounds.min), max_norm(octree.bounds.max));
+        const Slot triangle_end = job_.scene.triangle_end();
         job_.mailbox.start();
-        walk_beam(
-            job_.scene.octree(), rays_.beam,
-            [&](float entry) HWY_ATTR { return entry * tile_near_ > 1 + kEntryRounding; },
-            [&](const std::uint32_t* items, std::uint32_t count, float) HWY_ATTR {
-                const PixelBox* const boxes = boxes_ + (items - items_);
-                for (std::uint32_t i = 0; i < count; ++i) enqueue(boxes[i]);
-                return false;
+        walk_frustum(
+            octree, Frustum(job_.camera, tile_, reach),
+            [&](BlockRange range, float nearest) HWY_ATTR { return is_open(range, nearest); },
+            [&](const std::uint32_t* items, std::uint32_t count) HWY_ATTR {
+                for (std::uint32_t i = 0; i < count; ++i) {
+                    if (job_.mailbox.seen(items[i])) continue;
+                    if (items[i] < triangle_end) {
+                        if (corners_.add(items[i])) advance_triangles();
+                    } else {
+                        add_quadric(items[i] - triangle_end);
+                    }
+                }
             });
-        while (waiting_ != 0 || chosen_count_ != 0) step();
+        while (!corners_.empty()) advance_triangles();
+        choose_quadrics();
+        for (int t = 0; t < MacroTile::kTiles; ++t) test_spheres(t);
         finish();
     }
 
   private:
-    static constexpr float kEntryRounding = 4 * kFloatRoundoff;
     static constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    static constexpr std::size_t kBatch = BoxCulling::kBatch;
+    static_assert(kBatch == CornerFetch::kBatch && kBatch == SphereConics::kMost);
     // Up to so many blocks are tested one by one: from 2 to 7 the time was the same.
     static constexpr int kFewBlocks = 4;
     const Ints none_{static_cast<std::int32_t>(kNoSlot)};
 
     // Lanes outside of the picture get a hit nearer than any.
     void clear() {
-        const int width = job_.camera.resolution.width - tile_.x;
-        const int height = job_.camera.resolution.height - tile_.y;
-        const bool whole = width >= kTileSide && height >= kTileSide;
-        for (int b = 0; b < kTileBlocks; ++b) {
-            const std::uint32_t inside = whole ? 0xffff : lanes_inside(b, width, height);
+        const int width = job_.camera.resolution.width;
+        const int height = job_.camera.resolution.height;
+        for (int b = 0; b < MacroTile::kBlocks; ++b) {
+            const int t = b / kTileBlocks;
+            const std::uint32_t inside =
+                lanes_inside(b % kTileBlocks, width - tile_.tile_x(t), height - tile_.tile_y(t));
             tile_.inside[b] = static_cast<std::uint16_t>(inside);
             const Floats near = select(RayMask::from_bits(inside), Floats(0.0F), Floats(kInfinity));
             near.store(tile_.near_low + b * kBlockLanes);
@@ -70,8 +91,11 @@ class PrimaryTracer {
             block_near_[b] = inside != 0 ? 0 : kInfinity;
             none_.store(slots(b));
         }
+        for (int t = 0; t < MacroTile::kTiles; ++t) update_tile(t);
+        macro_near_ = lowest(Floats::load(tile_near_));
     }
     static std::uint32_t lanes_inside(int b, int width, int height) {
+        if (width >= kTileSide && height >= kTileSide) return 0xffff;
         std::uint32_t inside = 0;
         for (int lane = 0; lane < kBlockLanes; ++lane) {
             const int at = b * kBlockLanes + lane;
@@ -85,94 +109,136 @@ class PrimaryTracer {
     }
 
     void finish() {
-        for (int b = 0; b < kTileBlocks; ++b)
+        for (int b = 0; b < MacroTile::kBlocks; ++b)
             tile_.hit[b] = static_cast<std::uint16_t>((Ints::load(slots(b)) != none_).bits());
     }
 
-    HWY_INLINE void enqueue(const PixelBox& box) {
-        queue_[BoxCulling::place(waiting_)] = box;
-        waiting_ += job_.mailbox.seen(box.slot) ? 0 : 1;
-        if (waiting_ == kBatch) step();
+    // Whether anything in these blocks is not surely nearer.
+    HWY_INLINE bool is_open(BlockRange range, float nearest) const {
+        if (nearest < macro_near_) return false;
+        const int first_column = range.first_column();
+        const int last_column = range.last_column();
+        const int first_row = range.first_row();
+        const int last_row = range.last_row();
+        const int left = first_column / kMacroTiles;
+        const int right = last_column / kMacroTiles;
+        const int top = first_row / kMacroTiles;
+        const int bottom = last_row / kMacroTiles;
+        const auto among = [&](const float* near, int from_x, int to_x, int from_y,
+                               int to_y) HWY_ATTR {
+            const std::int32_t places =
+                BoxCulling::kColumns[4 * from_x + to_x] & BoxCulling::kRows[4 * from_y + to_y];
+            return ((Floats::load(near) <= Floats(nearest)).bits() &
+                    static_cast<std::uint32_t>(places)) != 0;
+        };
+        if (left == right && top == bottom)
+            return among(block_near_ + kTileBlocks * (kMacroTiles * top + left), first_column % 4,
+                         last_column % 4, first_row % 4, last_row % 4);
+        return among(tile_near_, left, right, top, bottom);
     }
 
-    // Chooses from the items that wait; then tests those chosen before, or if there are none these.
-    HWY_NOINLINE void step() {
-        std::size_t first = chosen_count_;
-        if (waiting_ != 0) {
-            chosen_count_ += culling_.choose(queue_, waiting_, block_near_, tile_near_,
-                                             chosen_ + first, blocks_ + first);
-            waiting_ = 0;
-            for (std::size_t i = first; i < chosen_count_; ++i) prefetch(chosen_[i]);
-            if (first == 0) return;
-        } else {
-            first = chosen_count_;
+    HWY_NOINLINE void advance_triangles() {
+        corners_.advance();
+        const std::size_t count = corners_.count();
+        if (count == 0) return;
+        constexpr std::size_t kHalf = TriangleBatch::kSize;
+        PixelBox boxes[kBatch];
+        for (std::size_t half = 0; half * kHalf < count; ++half)
+            box_maker_.triangles(corners_.corners(half).corner, job_.scene.scene().camera.position,
+                                 job_.scene.frame().scale, boxes + half * kHalf,
+                                 std::min(kHalf, count - half * kHalf));
+        for (std::size_t i = 0; i < count; ++i) queue_[BoxCulling::place(i)] = boxes[i];
+        const std::size_t chosen = choose(count);
+        CameraTriangle triangles[kBatch];
+        bool made[kBatch / kHalf] = {};
+        std::uint32_t hidden = 0;
+        for (std::size_t c = 0; c < chosen; ++c) {
+            const auto i = static_cast<std::size_t>(chosen_[c]);
+            const std::size_t half = i / kHalf;
+            if (!made[half])
+                hidden |= make(half, triangles + half * kHalf, boxes + half * kHalf)
+                          << half * kHalf;
+            made[half] = true;
+            if ((hidden >> i & 1) != 0) continue;
+            for_each_tile(boxes[i], c, [&](int t, std::uint32_t blocks) HWY_ATTR {
+                test_triangle(triangles[i], corners_.slot(i), t, blocks);
+            });
         }
-        test(first);
         update_near();
-        chosen_count_ -= first;
-        Ints::load(chosen_ + first).store(chosen_);
-        Ints::load(blocks_ + first).store(blocks_);
     }
 
-    HWY_INLINE void prefetch(std::int32_t chosen) const {
-        const auto slot = static_cast<Slot>(chosen);
-        const Slot triangle_end = job_.scene.triangle_end();
-        if (slot < triangle_end)
-            hwy::Prefetch(job_.tables.triangles.data() + slot);
-        else
-            hwy::Prefetch(job_.tables.spheres.data() + (slot - triangle_end));
-    }
-
-    // The first `count` of those chosen.
-    HWY_INLINE void test(std::size_t count) {
-        const CameraSphere* spheres[kBatch];
-        std::size_t place[kBatch];
-        std::size_t sphere_count = 0;
-        for (std::size_t i = 0; i < count; ++i) {
-            const auto slot = static_cast<Slot>(chosen_[i]);
-            if (slot < job_.scene.triangle_end()) {
-                test_triangle(slot, static_cast<std::uint32_t>(blocks_[i]));
-            } else {
-                spheres[sphere_count] = &job_.tables.spheres[slot - job_.scene.triangle_end()];
-                place[sphere_count++] = i;
-            }
+    // Returns which of them turn a back to the eye that nobody sees.
+    HWY_INLINE std::uint32_t make(std::size_t half, CameraTriangle* triangles, PixelBox* boxes) {
+        const TriangleBatch& batch = corners_.corners(half);
+        auto [unknown, hidden] = triangle_maker_.make(batch, triangles, TriangleBatch::kSize);
+        for (; HWY_UNLIKELY(unknown != 0); unknown &= unknown - 1) {
+            const auto i = static_cast<std::size_t>(std::countr_zero(unknown));
+            make_exact_camera_triangle(
+                {job_.camera, job_.scene.scene().camera.position, job_.scene.frame().scale},
+                batch.triangle(i), (batch.front_only >> i & 1) != 0, triangles[i], boxes[i]);
         }
-        if (sphere_count != 0) test_spheres(spheres, place, sphere_count);
+        return hidden;
     }
 
-    HWY_INLINE void test_triangle(Slot slot, std::uint32_t blocks) {
-        const CameraTriangle& t = job_.tables.triangles[slot];
-        const Floats4 center =
-            mul_add(Floats4::load(t.b), Floats4(rays_.center_y),
-                    mul_add(Floats4::load(t.a), Floats4(rays_.center_x), Floats4::load(t.c)));
+    HWY_INLINE std::size_t choose(std::size_t count) {
+        return culling_.choose(queue_, count, tile_near_, macro_near_, chosen_, tiles_);
+    }
+    // Calls test(tile, blocks) where the c-th of those chosen may be seen.
+    template <typename Test>
+    HWY_INLINE void for_each_tile(const PixelBox& box, std::size_t c, Test&& test) const {
+        if (box.columns == 0) return;  // the eye lies in the triangle's plane
+        for (auto tiles = static_cast<std::uint32_t>(tiles_[c]); tiles != 0; tiles &= tiles - 1) {
+            const int t = std::countr_zero(tiles);
+            const std::uint32_t blocks =
+                culling_.blocks(box, t) &
+                (Floats::load(block_near_ + kTileBlocks * t) <= Floats(box.nearest)).bits();
+            if (blocks != 0) test(t, blocks);
+        }
+    }
+
+    // The middle of a tile in pixel coordinates.
+    HWY_INLINE float center_x(int t) const {
+        return static_cast<float>(job_.camera.center_x(tile_.tile_x(t)) + kHalfTile);
+    }
+    HWY_INLINE float center_y(int t) const {
+        return static_cast<float>(job_.camera.center_y(tile_.tile_y(t)) + kHalfTile);
+    }
+
+    HWY_INLINE void test_triangle(const CameraTriangle& triangle, Slot slot, int t,
+                                  std::uint32_t blocks) {
+        const Floats4 center = mul_add(
+            Floats4::load(triangle.b), Floats4(center_y(t)),
+            mul_add(Floats4::load(triangle.a), Floats4(center_x(t)), Floats4::load(triangle.c)));
         float at[4];
         center.store(at);
-        const float edge_error = std::max(t.e[0], std::max(t.e[1], t.e[2]));
-        if (std::popcount(blocks) > kFewBlocks) blocks = met(t, at, edge_error, blocks);
+        const float edge_error = std::max(triangle.e[0], std::max(triangle.e[1], triangle.e[2]));
+        if (std::popcount(blocks) > kFewBlocks) blocks = met(triangle, at, edge_error, t, blocks);
         for (; blocks != 0; blocks &= blocks - 1) {
             const int b = std::countr_zero(blocks);
-            const Floats x = Floats::load(kOffsets.x[b]);
-            const Floats y = Floats::load(kOffsets.y[b]);
+            const Floats from_x = Floats::load(kOffsets.x[b]);
+            const Floats from_y = Floats::load(kOffsets.y[b]);
             Floats value[4];
             for (int i = 0; i < 4; ++i)
-                value[i] = mul_add(x, Floats(t.a[i]), mul_add(y, Floats(t.b[i]), Floats(at[i])));
-            take_triangle(slot, b, min(value[0], min(value[1], value[2])), value[3], edge_error,
-                          t.e[3]);
+                value[i] = mul_add(from_x, Floats(triangle.a[i]),
+                                   mul_add(from_y, Floats(triangle.b[i]), Floats(at[i])));
+            take_triangle(slot, kTileBlocks * t + b, min(value[0], min(value[1], value[2])),
+                          value[3], edge_error, triangle.e[3]);
         }
     }
 
     // The blocks where no edge function is surely negative, and q not surely too small.
-    HWY_INLINE std::uint32_t met(const CameraTriangle& t, const float (&at)[4], float edge_error,
-                                 std::uint32_t blocks) const {
+    HWY_INLINE std::uint32_t met(const CameraTriangle& triangle, const float (&at)[4],
+                                 float edge_error, int t, std::uint32_t blocks) const {
         const Floats x = Floats::load(kOffsets.block_x);
         const Floats y = Floats::load(kOffsets.block_y);
         RayMask possible = RayMask::from_bits(blocks);
         for (int i = 0; i < 4; ++i) {
-            const float half = kHalfBlock * (std::fabs(t.a[i]) + std::fabs(t.b[i]));
+            const float half = kHalfBlock * (std::fabs(triangle.a[i]) + std::fabs(triangle.b[i]));
             const Floats value =
-                mul_add(x, Floats(t.a[i]), mul_add(y, Floats(t.b[i]), Floats(at[i])));
-            const Floats most = value + Floats(half + (i < 3 ? edge_error : t.e[3]));
-            possible = possible & (most >= (i < 3 ? Floats(0.0F) : Floats::load(block_near_)));
+                mul_add(x, Floats(triangle.a[i]), mul_add(y, Floats(triangle.b[i]), Floats(at[i])));
+            const Floats most = value + Floats(half + (i < 3 ? edge_error : triangle.e[3]));
+            possible = possible & (most >= (i < 3 ? Floats(0.0F)
+                                                  : Floats::load(block_near_ + kTileBlocks * t)));
         }
         return possible.bits();
     }
@@ -192,7 +258,7 @@ class PrimaryTracer {
             else
                 found.store(tile_, b, open & (inside >= Floats(0.0F)), slot);
         }
-        changed_ |= 1U << b;
+        changed(b);
     }
 
     // By the order of two planes where the triangle is surely met (`inside`) and many lanes show
@@ -200,6 +266,8 @@ class PrimaryTracer {
     HWY_NOINLINE void decide_triangle(Slot slot, int b, std::uint32_t open, std::uint32_t inside,
                                       const Candidates& found) {
         constexpr int kMany = 3;
+        const int t = b / kTileBlocks;
+        const int of_tile = b % kTileBlocks;
         const Ints shown = Ints::load(slots(b));
         for (std::uint32_t rest = open & inside; rest != 0;) {
             const Slot other = tile_.slot[b * kBlockLanes + std::countr_zero(rest)];
@@ -208,10 +276,10 @@ class PrimaryTracer {
             rest &= ~same;
             if (std::popcount(same) < kMany || other >= job_.scene.triangle_end()) continue;
             const PlaneOrder order = job_.orders.between(slot, other);
-            const float at = order.c + order.a * rays_.center_x + order.b * rays_.center_y;
+            const float at = order.c + order.a * center_x(t) + order.b * center_y(t);
             const Floats value =
-                mul_add(Floats::load(kOffsets.x[b]), Floats(order.a),
-                        mul_add(Floats::load(kOffsets.y[b]), Floats(order.b), Floats(at)));
+                mul_add(Floats::load(kOffsets.x[of_tile]), Floats(order.a),
+                        mul_add(Floats::load(kOffsets.y[of_tile]), Floats(order.b), Floats(at)));
             const std::uint32_t nearer = (value > Floats(order.e)).bits() & same;
             found.store(tile_, b, RayMask::from_bits(nearer), slot);
             open &= ~(nearer | ((value < Floats(-order.e)).bits() & same));
@@ -219,21 +287,51 @@ class PrimaryTracer {
         if (open != 0) decide(slot, b, open);
     }
 
-    HWY_NOINLINE void test_spheres(const CameraSphere* const* spheres, const std::size_t* place,
-                                   std::size_t count) {
-        conics_.fill(spheres, count, rays_);
-        for (std::size_t i = 0; i < count; ++i) {
-            const auto slot = static_cast<Slot>(chosen_[place[i]]);
-            auto blocks = static_cast<std::uint32_t>(blocks_[place[i]]);
-            if (std::popcount(blocks) > kFewBlocks) blocks = conics_.met(i, blocks);
-            for (; blocks != 0; blocks &= blocks - 1)
-                take_sphere(slot, *spheres[i], i, std::countr_zero(blocks));
+    HWY_INLINE void add_quadric(std::uint32_t place) {
+        hwy::Prefetch(job_.tables.boxes.data() + place);
+        quadrics_[quadric_count_++] = place;
+        if (quadric_count_ == kBatch) choose_quadrics();
+    }
+
+    HWY_NOINLINE void choose_quadrics() {
+        const std::size_t count = std::exchange(quadric_count_, std::size_t{0});
+        for (std::size_t i = 0; i < count; ++i)
+            queue_[BoxCulling::place(i)] = job_.tables.boxes[quadrics_[i]];
+        const std::size_t chosen = choose(count);
+        for (std::size_t c = 0; c < chosen; ++c) {
+            const std::uint32_t place = quadrics_[chosen_[c]];
+            hwy::Prefetch(job_.tables.spheres.data() + place);
+            for_each_tile(job_.tables.boxes[place], c, [&](int t, std::uint32_t blocks) HWY_ATTR {
+                WaitingSpheres& waiting = spheres_[t];
+                waiting.place[waiting.count] = place;
+                waiting.blocks[waiting.count++] = blocks;
+                if (waiting.count == kBatch) test_spheres(t);
+            });
         }
     }
 
-    HWY_INLINE void take_sphere(Slot slot, const CameraSphere& s, std::size_t i, int b) {
-        const Floats x = Floats::load(kOffsets.x[b]);
-        const Floats y = Floats::load(kOffsets.y[b]);
+    HWY_NOINLINE void test_spheres(int t) {
+        WaitingSpheres& waiting = spheres_[t];
+        const std::size_t count = std::exchange(waiting.count, std::size_t{0});
+        if (count == 0) return;
+        const CameraSphere* spheres[kBatch];
+        for (std::size_t i = 0; i < count; ++i) spheres[i] = &job_.tables.spheres[waiting.place[i]];
+        conics_.fill(spheres, count, TileRays(job_.camera, tile_.tile_x(t), tile_.tile_y(t)));
+        for (std::size_t i = 0; i < count; ++i) {
+            const Slot slot = job_.scene.triangle_end() + waiting.place[i];
+            std::uint32_t blocks = waiting.blocks[i];
+            if (std::popcount(blocks) > kFewBlocks) blocks = conics_.met(i, blocks);
+            for (; blocks != 0; blocks &= blocks - 1)
+                take_sphere(slot, *spheres[i], i, t, std::countr_zero(blocks));
+        }
+        update_near();
+    }
+
+    HWY_INLINE void take_sphere(Slot slot, const CameraSphere& s, std::size_t i, int t,
+                                int b_of_tile) {
+        const int b = kTileBlocks * t + b_of_tile;
+        const Floats x = Floats::load(kOffsets.x[b_of_tile]);
+        const Floats y = Floats::load(kOffsets.y[b_of_tile]);
         const Floats discriminant = conics_.discriminant(i, x, y);
         const RayMask perhaps = discriminant >= Floats(-conics_.error(i));
         if (!perhaps.any()) return;
@@ -252,7 +350,7 @@ class PrimaryTracer {
         if (!sure.any() && open_bits == 0) return;
         found.store(tile_, b, sure, slot);
         if (open_bits != 0) decide(slot, b, open_bits);
-        changed_ |= 1U << b;
+        changed(b);
     }
 
     // Lane by lane, exactly.
@@ -260,8 +358,11 @@ class PrimaryTracer {
         for (; bits != 0; bits &= bits - 1) {
             const int lane = b * kBlockLanes + std::countr_zero(bits);
             if (tile_.slot[lane] == slot) continue;
-            const auto nearest = job_.fallback.nearer(
-                tile_.x + lane_x(lane), tile_.y + lane_y(lane), slot, tile_.slot[lane]);
+            const int t = b / kTileBlocks;
+            const int of_tile = lane % kTileLanes;
+            const auto nearest =
+                job_.fallback.nearer(tile_.tile_x(t) + lane_x(of_tile),
+                                     tile_.tile_y(t) + lane_y(of_tile), slot, tile_.slot[lane]);
             if (!nearest) continue;
             tile_.slot[lane] = slot;
             tile_.near_low[lane] = nearest->low;
@@ -272,37 +373,56 @@ class PrimaryTracer {
         }
     }
 
+    HWY_INLINE void changed(int b) {
+        changed_tiles_ |= 1U << (b / kTileBlocks);
+        changed_blocks_[b / kTileBlocks] |= 1U << b % kTileBlocks;
+    }
     HWY_INLINE void update_near() {
-        if (changed_ == 0) return;
-        for (std::uint32_t blocks = changed_; blocks != 0; blocks &= blocks - 1) {
-            const int b = std::countr_zero(blocks);
-            block_near_[b] = lowest(Floats::load(tile_.near_low + b * kBlockLanes));
+        if (changed_tiles_ == 0) return;
+        for (; changed_tiles_ != 0; changed_tiles_ &= changed_tiles_ - 1) {
+            const int t = std::countr_zero(changed_tiles_);
+            for (std::uint32_t& blocks = changed_blocks_[t]; blocks != 0; blocks &= blocks - 1) {
+                const int b = kTileBlocks * t + std::countr_zero(blocks);
+                block_near_[b] = lowest(Floats::load(tile_.near_low + b * kBlockLanes));
+            }
+            update_tile(t);
         }
-        changed_ = 0;
-        tile_near_ = lowest(Floats::load(block_near_));
+        macro_near_ = lowest(Floats::load(tile_near_));
+    }
+    HWY_INLINE void update_tile(int t) {
+        tile_near_[t] = lowest(Floats::load(block_near_ + kTileBlocks * t));
     }
 
-    static constexpr std::size_t kBatch = BoxCulling::kBatch;
+    // Spheres that may be seen in a tile: places in the tables, and blocks.
+    struct WaitingSpheres {
+        std::size_t count = 0;
+        std::uint32_t place[kBatch];
+        std::uint32_t blocks[kBatch];
+    };
 
     PrimaryJob& job_;
-    Tile& tile_;
-    TileRays rays_;
+    MacroTile& tile_;
     BoxCulling culling_;
-    alignas(64) float block_near_[kTileBlocks];  // the least near_low of a block
-    float tile_near_ = 0;                        // the least of these
-    std::uint32_t changed_ = 0;                  // blocks where they are out of date, too small
-    // Items that wait, and those chosen with the blocks where they may show.
-    const std::uint32_t* const items_ = job_.scene.octree().items.data();
-    const PixelBox* const boxes_ = job_.tables.boxes.data();
+    PixelBoxMaker box_maker_;
+    TriangleMaker triangle_maker_;
+    CornerFetch corners_;
+    // The least near_low of a block, of a tile, of all; too small where changed.
+    alignas(64) float block_near_[MacroTile::kBlocks];
+    alignas(64) float tile_near_[MacroTile::kTiles];
+    float macro_near_ = 0;
+    std::uint32_t changed_tiles_ = 0;
+    std::uint32_t changed_blocks_[MacroTile::kTiles] = {};
+    // Boxes of the items of a batch, those chosen, and the tiles where they may be seen.
     alignas(64) PixelBox queue_[kBatch] = {};
-    std::size_t waiting_ = 0;
-    std::int32_t chosen_[3 * kBatch];
-    std::int32_t blocks_[3 * kBatch];
-    std::size_t chosen_count_ = 0;
+    std::int32_t chosen_[2 * kBatch];
+    std::int32_t tiles_[2 * kBatch];
+    std::uint32_t quadrics_[kBatch];
+    std::size_t quadric_count_ = 0;
+    WaitingSpheres spheres_[MacroTile::kTiles];
     SphereConics conics_;
 };
 
-void trace_primary(PrimaryJob& job, Tile& tile) { PrimaryTracer(job, tile).run(); }
+void trace_primary(PrimaryJob& job, MacroTile& tile) { PrimaryTracer(job, tile).run(); }
 
 }  // namespace nuvo::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -1,13 +1,13 @@
 #pragma once
 
 #include "fast/primary/camera_tables.h"
+#include "fast/primary/macro_tile.h"
 #include "fast/primary/plane_order.h"
 #include "fast/scene/mailbox.h"
 #include "fast/tile/exact_fallback.h"
-#include "fast/tile/tile.h"
 
-// Primary rays: the octree is walked once a tile, by the beam of all its rays; in a leaf each
-// primitive is tested against whole blocks first, then against 16 rays at a time.
+// Primary rays: the octree is walked once a macro tile, from near to far; what a leaf holds is
+// tested against tiles and blocks first, then against 16 rays at a time.
 
 namespace nuvo {
 
@@ -22,15 +22,14 @@ struct PrimaryJob {
     PlaneOrders orders{scene, camera};
 };
 
-/// Finds the nearest primitives of a tile whose x and y are set; fills `inside` and the fields of
-/// primary rays.
+/// Finds the nearest primitives of a macro tile whose x and y are set; fills the rest.
 class PrimaryStage {
   public:
     explicit PrimaryStage(InstructionSet isa);
-    void trace(PrimaryJob& job, Tile& tile) const { trace_(job, tile); }
+    void trace(PrimaryJob& job, MacroTile& tile) const { trace_(job, tile); }
 
   private:
-    void (*trace_)(PrimaryJob&, Tile&);
+    void (*trace_)(PrimaryJob&, MacroTile&);
 };
 
 }  // namespace nuvo

@@ -9,8 +9,8 @@
 #include <cmath>
 
 #include "fast/primary/camera_tables.h"
+#include "fast/primary/macro_tile.h"
 #include "fast/simd/lanes.h"
-#include "fast/tile/beam_box.h"
 #include "fast/tile/tile.h"
 
 // The rays of a tile, and what a hit has to beat. A tile's directions are affine in the offset from
@@ -43,55 +43,32 @@ inline constexpr LaneOffsets kOffsets;
 inline constexpr float kHalfBlock = 0.5F * (kBlockSide - 1);
 inline constexpr float kHalfTile = 0.5F * (kTileSide - 1);
 
-/// The middle of a tile and its beam.
+/// The middle of a tile.
 struct TileRays {
-    TileRays(const CameraRays& rays, const Tile& tile) : camera(rays) {
-        const double x = rays.center_x(tile.x) + kHalfTile;
-        const double y = rays.center_y(tile.y) + kHalfTile;
+    TileRays(const CameraRays& rays, int tile_x, int tile_y) : camera(rays) {
+        const double x = rays.center_x(tile_x) + kHalfTile;
+        const double y = rays.center_y(tile_y) + kHalfTile;
         center = rays.direction(x, y);
         center_x = static_cast<float>(x);
         center_y = static_cast<float>(y);
-        fill_beam();
     }
 
     const CameraRays& camera;
-    Vector3 center;  ///< the direction through the middle of the tile
-    float center_x;  ///< that middle's pixel coordinates
+    Vector3 center;  ///< the direction through it
+    float center_x;  ///< its pixel coordinates
     float center_y;
-    BeamBox beam;
-
-  private:
-    // Directions are extreme at the corners. Two roundings' worth outside of the rounded numbers
-    // are floats that enclose them.
-    void fill_beam() {
-        constexpr double kOutwards = 0x1p-22;
-        constexpr double kSlack = 0x1p-40;
-        for (int axis = 0; axis < 3; ++axis) {
-            const double reach =
-                kHalfTile * (std::fabs(camera.right[axis]) + std::fabs(camera.down[axis]));
-            const double origin = camera.origin[axis];
-            const double origin_slack = std::fabs(origin) * kOutwards + kSlack * kSlack;
-            beam.origin_low[axis] = static_cast<float>(origin - origin_slack);
-            beam.origin_high[axis] = static_cast<float>(origin + origin_slack);
-            const double slack = (std::fabs(center[axis]) + reach) * kOutwards + kSlack;
-            beam.direction_low[axis] = static_cast<float>(center[axis] - reach - slack);
-            beam.direction_high[axis] = static_cast<float>(center[axis] + reach + slack);
-        }
-        beam.t_end = kLargestT;
-        beam.keep_off_zero();
-    }
-    static constexpr float kLargestT = 0x1p100F;
 };
 
 /// Bounds on 1 / t of a candidate against those of the nearest so far.
 struct Candidates {
-    HWY_INLINE Candidates(const Tile& tile, int block, const Floats& low_q, const Floats& high_q)
+    HWY_INLINE Candidates(const MacroTile& tile, int block, const Floats& low_q,
+                          const Floats& high_q)
         : low(low_q),
           high(high_q),
           surely_nearer(low_q > Floats::load(tile.near_high + block * kBlockLanes)),
           perhaps_nearer(high_q >= Floats::load(tile.near_low + block * kBlockLanes)) {}
 
-    HWY_INLINE void store(Tile& tile, int block, const RayMask& mask, Slot slot) const {
+    HWY_INLINE void store(MacroTile& tile, int block, const RayMask& mask, Slot slot) const {
         low.store(tile.near_low + block * kBlockLanes, mask);
         high.store(tile.near_high + block * kBlockLanes, mask);
         Ints(static_cast<std::int32_t>(slot))

@@ -29,7 +29,7 @@ class Mailbox {
     }
 
   private:
-    static constexpr std::size_t kPlaces = 512;
+    static constexpr std::size_t kPlaces = 4096;
     std::array<std::uint64_t, kPlaces> last_{};
     std::uint64_t run_ = 0;
 };

@@ -2,8 +2,6 @@
 
 #include <bit>
 
-#include "fast/tile/tile.h"
-
 namespace nuvo {
 namespace {
 
@@ -16,11 +14,11 @@ std::uint32_t even_bits(std::uint32_t code) {
 
 }  // namespace
 
-std::vector<TilePlace> tiles_in_order(Resolution resolution) {
-    const auto columns = static_cast<std::uint32_t>((resolution.width + kTileSide - 1) / kTileSide);
-    const auto rows = static_cast<std::uint32_t>((resolution.height + kTileSide - 1) / kTileSide);
+std::vector<TilePlace> tiles_in_order(Resolution resolution, int side) {
+    const auto columns = static_cast<std::uint32_t>((resolution.width + side - 1) / side);
+    const auto rows = static_cast<std::uint32_t>((resolution.height + side - 1) / side);
     // Squares of this side along the curve, and these row by row: no square is mostly empty.
-    constexpr std::uint32_t kSquare = 16;
+    constexpr std::uint32_t kSquare = 4;
     std::vector<TilePlace> places;
     places.reserve(columns * rows);
     for (std::uint32_t y = 0; y < rows; y += kSquare)

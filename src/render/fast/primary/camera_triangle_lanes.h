@@ -1,16 +1,16 @@
-#include "fast/primary/camera_triangles.h"
+// No #pragma once: compiled once for each instruction set (see hwy/foreach_target.h).
+#if defined(NUVO_RENDER_FAST_CAMERA_TRIANGLE_LANES_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef NUVO_RENDER_FAST_CAMERA_TRIANGLE_LANES_H_
+#undef NUVO_RENDER_FAST_CAMERA_TRIANGLE_LANES_H_
+#else
+#define NUVO_RENDER_FAST_CAMERA_TRIANGLE_LANES_H_
+#endif
 
-#include <bit>
 #include <limits>
 
-#include "nuvo/math/error_bounds.h"
-
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "fast/primary/camera_triangles.cpp"
-#include <hwy/foreach_target.h>
-
-#include "fast/primary/pixel_box_lanes.h"
+#include "fast/primary/camera_triangles.h"
 #include "fast/scene/wide_vectors.h"
+#include "nuvo/math/error_bounds.h"
 
 // u, v, w are the triple products of the ray's direction with the planes through the eye and an
 // edge, turned so that they are positive where the line enters at t > 0; with K = n.(a - eye),
@@ -107,36 +107,7 @@ class TriangleMaker {
     RecordColumns columns_;  // a, b, c, e of u, v, w, q
 };
 
-void make_triangles(const CameraTrianglesJob& job, const TriangleChunk& chunk) {
-    TriangleMaker maker(job.camera, job.eye, job.scale);
-    const PixelBoxMaker boxes(job.camera);
-    chunk.for_each_batch([&](const TriangleBatch& batch, Slot first, std::size_t count) HWY_ATTR {
-        const std::uint32_t there = (1U << count) - 1;
-        auto [unknown, hidden] = maker.make(batch, job.out + first, count);
-        if (hidden != there)
-            boxes.triangles(batch.corner, job.eye, job.scale, job.boxes + first, count);
-        for (; hidden != 0; hidden &= hidden - 1)
-            job.boxes[first + static_cast<Slot>(std::countr_zero(hidden))] = kNoPixels;
-        for (; HWY_UNLIKELY(unknown != 0); unknown &= unknown - 1) {
-            const auto i = static_cast<std::size_t>(std::countr_zero(unknown));
-            make_exact_camera_triangle(job, batch.triangle(i), (batch.front_only >> i & 1) != 0,
-                                       job.out[first + i], job.boxes[first + i]);
-        }
-    });
-}
-
 }  // namespace nuvo::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
-#if HWY_ONCE
-#include "fast/simd/dispatch.h"
-
-namespace nuvo {
-
-void make_camera_triangles(const CameraTrianglesJob& job, const TriangleChunk& chunk,
-                           InstructionSet isa) {
-    (NUVO_FOR_ISA(isa, make_triangles))(job, chunk);
-}
-
-}  // namespace nuvo
-#endif
+#endif  // NUVO_RENDER_FAST_CAMERA_TRIANGLE_LANES_H_

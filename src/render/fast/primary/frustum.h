@@ -1,0 +1,291 @@
+// No #pragma once: compiled once for each instruction set (see hwy/foreach_target.h).
+#if defined(NUVO_RENDER_FAST_FRUSTUM_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef NUVO_RENDER_FAST_FRUSTUM_H_
+#undef NUVO_RENDER_FAST_FRUSTUM_H_
+#else
+#define NUVO_RENDER_FAST_FRUSTUM_H_
+#endif
+
+#include <hwy/cache_control.h>
+
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "fast/primary/macro_tile.h"
+#include "fast/simd/lanes.h"
+#include "fast/tile/beam.h"
+#include "nuvo/math/error_bounds.h"
+#include "nuvo/octree/compact.h"
+
+// The octree from near to far as a macro tile sees it: where in the tile a voxel can be seen, and
+// how near its contents may be, for all eight octants of a node at once; voxels that only cover
+// pixels which show something nearer are left out (Greene, Kass and Miller 1993, "Hierarchical
+// Z-buffer visibility").
+//
+// A point p at the depth z = p.forward from the eye is seen A / z pixels from the macro tile's
+// middle, A and z being affine in p. Over a box an affine function is its value in the middle, more
+// or less the sum of |coefficient| half width.
+
+HWY_BEFORE_NAMESPACE();
+namespace nuvo::HWY_NAMESPACE {
+
+/// Blocks of a macro tile, as columns and rows first .. last, four bits each.
+struct BlockRange {
+    std::uint32_t packed;
+
+    static constexpr std::uint32_t kAll = 0xf0f0;
+    int first_column() const { return static_cast<int>(packed & 15); }
+    int last_column() const { return static_cast<int>(packed >> 4 & 15); }
+    int first_row() const { return static_cast<int>(packed >> 8 & 15); }
+    int last_row() const { return static_cast<int>(packed >> 12 & 15); }
+};
+
+/// The pyramid of the rays of a macro tile.
+class Frustum {
+  public:
+    /// Where the octants of a voxel can be seen.
+    struct Seen {
+        float range[8];    ///< BlockRange as a float
+        float nearest[8];  ///< bounds 1 / t of what is in it from above
+    };
+
+    /// For points whose local coordinates are at most `reach`.
+    Frustum(const CameraRays& camera, const MacroTile& tile, double reach) {
+        constexpr double kMiddle = 0.5 * (kMacroSide - 1);
+        const Vector3& forward = camera.forward;
+        depth_ = Affine(forward, forward, camera.origin, reach);
+        const double middle[2] = {camera.center_x(tile.x) + kMiddle,
+                                  camera.center_y(tile.y) + kMiddle};
+        const Vector3 step[2] = {camera.right, camera.down};
+        Vector3 across[2];
+        for (int k = 0; k < 2; ++k) {
+            const Vector3 pixels = step[k] * (1 / dot(step[k], step[k]));
+            across[k] = pixels - forward * middle[k];
+            Vector3 size;
+            for (int axis = 0; axis < 3; ++axis)
+                size[axis] = std::fabs(pixels[axis]) + std::fabs(forward[axis] * middle[k]);
+            across_[k] = Affine(across[k], size, camera.origin, reach);
+            // Positive before the eye on the inner side of an edge of the pyramid, a pixel and a
+            // half outside of the outermost rays.
+            constexpr double kBeyond = kMiddle + 1.5;
+            for (int side = 0; side < 2; ++side)
+                sides_[2 * k + side] =
+                    Affine(forward * kBeyond + across[k] * (side == 0 ? 1.0 : -1.0),
+                           size + abs_of(forward) * kBeyond, camera.origin, reach);
+        }
+        usable_ = depth_.usable();
+        for (const Affine& f : across_) usable_ = usable_ && f.usable();
+        for (const Affine& f : sides_) usable_ = usable_ && f.usable();
+        const Vector3 toward = camera.direction(middle[0], middle[1]);
+        flip_ = 0;
+        for (int axis = 0; axis < 3; ++axis)
+            if (toward[axis] < 0) flip_ |= 1U << axis;
+    }
+
+    /// Octant o ^ flip() for o = 0..7 is an order from near to far.
+    unsigned flip() const { return flip_; }
+
+    /// The octants of the voxel that the macro tile may show: all, and anywhere, where floats
+    /// cannot hold the view's numbers.
+    HWY_INLINE std::uint32_t sees(const float* low, const float* cut, const float* high,
+                                  Seen& seen) const {
+        if (HWY_UNLIKELY(!usable_)) {
+            OctantFloats(BlockRange::kAll).store(seen.range);
+            OctantFloats(std::numeric_limits<float>::infinity()).store(seen.nearest);
+            return 0xff;
+        }
+        Boxes boxes;
+        for (int axis = 0; axis < 3; ++axis) {
+            constexpr std::uint32_t kUpper[3] = {0xaa, 0xcc, 0xf0};
+            const auto upper = LaneMask<float, 8>::from_bits(kUpper[axis]);
+            const float a = low[axis];
+            const float b = cut[axis];
+            const float c = high[axis];
+            boxes.middle[axis] =
+                select(upper, OctantFloats(0.5F * (b + c)), OctantFloats(0.5F * (a + b)));
+            boxes.half[axis] =
+                select(upper, OctantFloats(0.5F * (c - b)), OctantFloats(0.5F * (b - a)));
+        }
+        const OctantFloats zero(0.0F);
+        const OctantFloats one(1.0F);
+        const OctantFloats depth = depth_.at(boxes);
+        const OctantFloats spread = depth_.spread(boxes);
+        const OctantFloats near = depth - spread;
+        const OctantFloats far = depth + spread;
+        // Boxes that reach behind the eye or all but: anywhere in the tile.
+        const auto anywhere = near <= OctantFloats(kLeastDepth);
+        auto shown = far > zero;
+        const OctantFloats by_near = one / near;
+        const OctantFloats by_far = one / far;
+        OctantFloats first[2];
+        OctantFloats last[2];
+        const OctantFloats most(kMacroSide - 1);
+        const OctantFloats shift(0.5F * (kMacroSide - 1));
+        for (int k = 0; k < 2; ++k) {
+            const OctantFloats middle = across_[k].at(boxes);
+            const OctantFloats reach = across_[k].spread(boxes);
+            const OctantFloats low_end = middle - reach;
+            const OctantFloats high_end = middle + reach;
+            first[k] = min(low_end * by_near, low_end * by_far) + (shift - OctantFloats(kMargin));
+            last[k] = max(high_end * by_near, high_end * by_far) + (shift + OctantFloats(kMargin));
+            shown = shown & (anywhere | ((first[k] <= most) & (last[k] >= zero)));
+        }
+        std::uint32_t octants = shown.bits();
+        if ((octants & anywhere.bits()) != 0)
+            for (const Affine& side : sides_)
+                octants &= ~(anywhere & (side.at(boxes) + side.spread(boxes) < zero)).bits();
+        if (octants == 0) return 0;
+        const OctantFloats quarter(1.0F / kBlockSide);
+        const auto block = [&](const OctantFloats& pixel)
+                               HWY_ATTR { return floor(min(max(pixel, zero), most) * quarter); };
+        const OctantFloats sixteen(16.0F);
+        const OctantFloats rows = mul_add(block(last[1]), sixteen, block(first[1]));
+        const OctantFloats columns = mul_add(block(last[0]), sixteen, block(first[0]));
+        select(anywhere, OctantFloats(BlockRange::kAll), mul_add(rows, sixteen * sixteen, columns))
+            .store(seen.range);
+        select(anywhere, OctantFloats(std::numeric_limits<float>::infinity()),
+               by_near * OctantFloats(1 + 4 * kFloatRoundoff))
+            .store(seen.nearest);
+        return octants;
+    }
+
+  private:
+    // In pixels: far more than the rounding of a quotient that lies within the tile.
+    static constexpr float kMargin = 0x1p-6F;
+    static constexpr float kLeastDepth = 0x1p-90F;
+
+    struct Boxes {
+        OctantFloats middle[3];
+        OctantFloats half[3];
+    };
+
+    static Vector3 abs_of(const Vector3& v) {
+        return {std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)};
+    }
+
+    // f . (p - eye). `size` bounds the terms whose sums are f's components.
+    class Affine {
+      public:
+        Affine() = default;
+        Affine(const Vector3& f, const Vector3& size, const Point3& eye, double reach) {
+            double constant = 0;
+            double terms = 0;
+            for (int axis = 0; axis < 3; ++axis) {
+                constant -= f[axis] * eye[axis];
+                terms += std::fabs(size[axis]) * (reach + std::fabs(eye[axis]));
+                f_[axis] = static_cast<float>(f[axis]);
+            }
+            constant_ = static_cast<float>(constant);
+            error_ = rounded_up(kRoundings * kFloatRoundoff * terms + kFloatUnderflow);
+            usable_ = terms < kLargest;
+        }
+        /// Whether no sum is beyond floats.
+        bool usable() const { return usable_; }
+        HWY_INLINE OctantFloats at(const Boxes& boxes) const {
+            return mul_add(
+                boxes.middle[0], OctantFloats(f_[0]),
+                mul_add(boxes.middle[1], OctantFloats(f_[1]),
+                        mul_add(boxes.middle[2], OctantFloats(f_[2]), OctantFloats(constant_))));
+        }
+        /// With the errors of both.
+        HWY_INLINE OctantFloats spread(const Boxes& boxes) const {
+            return mul_add(boxes.half[0], OctantFloats(std::fabs(f_[0])),
+                           mul_add(boxes.half[1], OctantFloats(std::fabs(f_[1])),
+                                   mul_add(boxes.half[2], OctantFloats(std::fabs(f_[2])),
+                                           OctantFloats(error_))));
+        }
+
+      private:
+        // Fifteen, docs/numerics.md; the last is for what double arithmetic rounds.
+        static constexpr double kRoundings = 16;
+        static constexpr double kLargest = 0x1p90;
+
+        float f_[3];
+        float constant_;
+        float error_;
+        bool usable_;
+    };
+
+    Affine depth_;
+    Affine across_[2];
+    Affine sides_[4];
+    bool usable_;
+    unsigned flip_;
+};
+
+/// Calls `leaf(items, count)` for each leaf that the macro tile may show, from near to far, but for
+/// voxels of which is_open(range, nearest) says that nothing in them matters. A leaf comes a few
+/// leaves late, when its items have arrived from memory.
+template <typename IsOpen, typename Leaf>
+HWY_INLINE void walk_frustum(const CompactOctree& octree, const Frustum& frustum, IsOpen&& is_open,
+                             Leaf&& leaf) {
+    struct alignas(32) Voxel {
+        float face[8];
+    };
+    struct Place {
+        float nearest;
+        std::uint32_t node;
+        BlockRange range;
+    };
+    constexpr int kStack = 7 * CompactOctree::kMaxDepth + 1;
+    constexpr unsigned kLate = 8;
+    Voxel voxels[kStack];
+    Place places[kStack];
+    const CompactNode* late[kLate] = {};
+    unsigned next_late = 0;
+    const CompactNode* const nodes = octree.nodes.data();
+    const std::uint32_t* const items = octree.items.data();
+    const auto& [low, high] = octree.bounds;
+    Voxel voxel{{low.x, low.y, low.z, 0, high.x, high.y, high.z, 0}};
+    std::uint32_t at = 0;
+    int waiting = 0;
+    for (;;) {
+        const CompactNode& node = nodes[at];
+        if (node.is_leaf()) {
+            const std::uint32_t* const first = items + node.first_item();
+            hwy::Prefetch(first);
+            hwy::Prefetch(first + node.item_count() - 1);
+            const CompactNode*& place = late[next_late++ % kLate];
+            if (place != nullptr) leaf(items + place->first_item(), place->item_count());
+            place = &node;
+        } else {
+            hwy::Prefetch(nodes + node.first_child());
+            Frustum::Seen seen;
+            std::uint32_t ahead = frustum.sees(voxel.face, node.cut, voxel.face + 4, seen);
+            ahead = flipped(ahead & node.mask(), frustum.flip());
+            const OctantFloats faces = OctantFloats::load(voxel.face);
+            const OctantFloats cut = OctantFloats::load_repeated(node.cut);
+            // The farthest first, so that the nearest is taken up next.
+            while (ahead != 0) {
+                const auto order = static_cast<unsigned>(31 - std::countl_zero(ahead));
+                const unsigned octant = order ^ frustum.flip();
+                ahead ^= 1U << order;
+                // Upper on an axis: the cut is the low face; else the high one.
+                const std::uint32_t moved = octant | (~octant & 7) << 4;
+                select(LaneMask<float, 8>::from_bits(moved), cut, faces)
+                    .store(voxels[waiting].face);
+                places[waiting++] = {
+                    seen.nearest[octant],
+                    node.child(octant),
+                    {static_cast<std::uint32_t>(static_cast<std::int32_t>(seen.range[octant]))}};
+            }
+        }
+        do {
+            if (waiting == 0) {
+                for (unsigned i = 0; i < kLate; ++i)
+                    if (const CompactNode* const place = late[next_late++ % kLate])
+                        leaf(items + place->first_item(), place->item_count());
+                return;
+            }
+            --waiting;
+        } while (!is_open(places[waiting].range, places[waiting].nearest));
+        at = places[waiting].node;
+        voxel = voxels[waiting];
+    }
+}
+
+}  // namespace nuvo::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // NUVO_RENDER_FAST_FRUSTUM_H_

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+
+#include "fast/tile/tile.h"
+
+namespace nuvo {
+
+inline constexpr int kMacroTiles = 4;  ///< a side
+inline constexpr int kMacroSide = kMacroTiles * kTileSide;
+
+/// 4 x 4 tiles whose primary rays are traced together. What tiles hold stands tile by tile: block b
+/// of tile t is block 16 t + b.
+struct alignas(64) MacroTile {
+    static constexpr int kTiles = kMacroTiles * kMacroTiles;
+    static constexpr int kBlocks = kTiles * kTileBlocks;
+    static constexpr int kLanes = kTiles * kTileLanes;
+
+    int x = 0;  ///< the first pixel
+    int y = 0;
+
+    // Each as in Tile.
+    std::uint16_t inside[kBlocks];
+    std::uint16_t hit[kBlocks];
+    Slot slot[kLanes];
+    float near_low[kLanes];
+    float near_high[kLanes];
+    float quadric_normal[3][kLanes];
+    float quadric_error[kLanes];
+
+    int tile_x(int tile) const { return x + tile % kMacroTiles * kTileSide; }
+    int tile_y(int tile) const { return y + tile / kMacroTiles * kTileSide; }
+
+    /// Copies one of its tiles; `quadrics`: whether the scene has any.
+    void copy(int tile, bool quadrics, Tile& out) const {
+        out.x = tile_x(tile);
+        out.y = tile_y(tile);
+        copy_part(inside, tile, out.inside);
+        copy_part(hit, tile, out.hit);
+        copy_part(slot, tile, out.slot);
+        copy_part(near_low, tile, out.near_low);
+        copy_part(near_high, tile, out.near_high);
+        if (!quadrics) return;
+        for (int axis = 0; axis < 3; ++axis)
+            copy_part(quadric_normal[axis], tile, out.quadric_normal[axis]);
+        copy_part(quadric_error, tile, out.quadric_error);
+    }
+
+  private:
+    template <typename T, std::size_t N>
+    static void copy_part(const T* from, int tile, T (&to)[N]) {
+        std::memcpy(to, from + static_cast<std::size_t>(tile) * N, sizeof to);
+    }
+};
+
+}  // namespace nuvo
