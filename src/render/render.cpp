@@ -5,12 +5,10 @@
 #include <limits>
 #include <type_traits>
 
-#include "exact_kernel.h"
+#include "chosen.h"
 #include "nuvo/geometry/overlap.h"
 #include "nuvo/octree/build.h"
 #include "nuvo/octree/walk.h"
-#include "plain_kernel.h"
-#include "search.h"
 #include "tracer.h"
 
 namespace nuvo {
@@ -100,37 +98,6 @@ bool primitive_overlaps(const Scene& scene, const PrimitiveSource& source, const
     return true;  // an ellipsoid is listed by its box, which the builder has tested
 }
 
-// Calls `use(kernel)` with the kernel that the profile's precision and bias ask for.
-template <typename Use>
-auto with_kernel(const Scene& scene, const Primitives& primitives, const Profile& profile,
-                 Use&& use) {
-    switch (profile.precision) {
-        case Precision::kFloat:
-            return use(PlainKernel<float>(scene, primitives, profile.bias, profile.back_faces));
-        case Precision::kDouble:
-            return use(PlainKernel<double>(scene, primitives, profile.bias, profile.back_faces));
-        case Precision::kExact:
-            break;
-    }
-    return use(ExactKernel(scene, primitives, profile.bias, profile.back_faces));
-}
-
-// Calls `use(search)` with the search that the profile's walk and step ask for.
-template <typename Kernel, typename Counter, typename Use>
-auto with_search(const Kernel& kernel, const Primitives& primitives, const Octree& octree,
-                 const Profile& profile, Counter counter, Use&& use) {
-    const auto with_locator = [&]<typename Locator>(Locator) {
-        if (profile.step)
-            return use(NudgedSearch<Kernel, Locator, Counter>(kernel, primitives, octree,
-                                                              *profile.step, counter));
-        return use(ExactSearch<Kernel, Locator, Counter>(kernel, primitives, octree, counter));
-    };
-    // A tree that was built for the other walk has no names.
-    if (profile.walk == WalkChoice::kHash && !octree.names().empty())
-        return with_locator(HashLocator{});
-    return with_locator(DescentLocator{});
-}
-
 template <typename Kernel, typename Search>
 std::vector<RayAnswer> answers(const Scene& scene, const Kernel& kernel, Search search,
                                std::span<const Ray> rays) {
@@ -161,7 +128,12 @@ std::uint64_t mixed(std::uint64_t x) {
 // Writes down what it is told.
 struct FactsObserver {
     PixelFacts& facts;
-    void hit(PrimitiveId primitive) { facts.primitive = primitive; }
+    template <typename Hit>
+    void hit(const Hit& hit) {
+        facts.primitive = hit.primitive;
+    }
+    template <typename Surface>
+    void asks(const Surface&, std::size_t) {}
     void lit(std::size_t light) {
         facts.lit ^= light < 64 ? std::uint64_t{1} << light : mixed(light);
     }
@@ -233,26 +205,6 @@ std::vector<PixelFacts> render_facts(const Scene& scene, const Primitives& primi
         });
     });
     return facts;
-}
-
-TraceCounts count_events(const Scene& scene, const Primitives& primitives, const Octree& octree,
-                         const Profile& profile, Resolution resolution) {
-    TraceCounts counts;
-    std::uint64_t tested = 0;
-    with_kernel(scene, primitives, profile, [&](const auto& kernel) {
-        const EventCounter counter{&counts, &tested};
-        with_search(kernel, primitives, octree, profile, counter, [&](auto search) {
-            Tracer tracer(scene, kernel, std::move(search));
-            tracer.image(resolution);
-            counts.primary_rays = tracer.primary_rays();
-            counts.shadow_rays = tracer.shadow_rays();
-        });
-        if constexpr (std::is_same_v<std::decay_t<decltype(kernel)>, ExactKernel>) {
-            const StageCounts& stages = kernel.stage_counts();
-            counts.predicates = PredicateCounts{tested, stages.wider, stages.exact};
-        }
-    });
-    return counts;
 }
 
 std::vector<RayAnswer> closest_hits(const Scene& scene, const Primitives& primitives,

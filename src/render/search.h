@@ -23,7 +23,8 @@ namespace nuvo {
 
 /// Counts nothing, at no cost.
 struct NoCounter {
-    void count_tests(std::size_t) const {}
+    void count_leaf(const Node&) const {}
+    void count_items(std::size_t) const {}
     void count_search() const {}
     void count_primitives(PrimitiveRange) const {}
 };
@@ -32,30 +33,43 @@ struct NoCounter {
 struct EventCounter {
     TraceCounts* counts;
     std::uint64_t* primitives;  // of those leaf items
-    void count_tests(std::size_t n) const { counts->intersection_tests += n; }
+    void count_leaf(const Node& leaf) const { count_items(leaf.item_count); }
+    void count_items(std::size_t n) const { counts->intersection_tests += n; }
     void count_search() const { ++counts->voxel_searches; }
     void count_primitives(PrimitiveRange range) const { *primitives += range.last - range.first; }
 };
 
 /// Every primitive against every ray.
-template <typename Kernel>
+template <typename Kernel, typename Counter = NoCounter>
 class BruteForceSearch {
   public:
-    BruteForceSearch(const Kernel& kernel, const Primitives& primitives)
-        : kernel_(kernel), all_(primitives.all()) {}
+    BruteForceSearch(const Kernel& kernel, const Primitives& primitives, Counter counter = {})
+        : kernel_(kernel),
+          all_(primitives.all()),
+          items_(primitives.item_count()),
+          counter_(counter) {}
 
     std::optional<typename Kernel::Hit> closest(const typename Kernel::PreparedRay& ray) const {
         std::optional<typename Kernel::Hit> best;
+        count();
         kernel_.closest(ray, all_, best);
         return best;
     }
     bool occluded(const typename Kernel::Shadow& shadow) const {
+        count();
         return kernel_.blocks(shadow, all_);
     }
 
   private:
+    void count() const {
+        counter_.count_items(items_);
+        counter_.count_primitives(all_);
+    }
+
     const Kernel& kernel_;
     PrimitiveRange all_;
+    std::size_t items_;
+    Counter counter_;
 };
 
 /// Through the octree by the walk without an epsilon: no hit is missed.
@@ -78,7 +92,7 @@ class ExactSearch {
         walk_(kernel_.walk_ray(ray), Kernel::kInfinity, [&](const Node& leaf, double exit) {
             if (!entered && !octree_.root().is_leaf()) counter_.count_search();
             entered = true;
-            counter_.count_tests(leaf.item_count);
+            counter_.count_leaf(leaf);
             if (is_crowd(leaf))
                 closest_in_crowd(ray, leaf, best);
             else
@@ -99,7 +113,7 @@ class ExactSearch {
         bool blocked = by_itself;
         start();
         walk_(kernel_.walk_ray(shadow.ray), shadow.end, [&](const Node& leaf, double exit) {
-            counter_.count_tests(leaf.item_count);
+            counter_.count_leaf(leaf);
             if (by_itself) return true;
             blocked = is_crowd(leaf) ? blocked_by_crowd(shadow, leaf)
                                      : blocked_by(shadow, octree_.contents(leaf));
@@ -250,7 +264,7 @@ class NudgedSearch {
         walk_(
             line, start, [&] { counter_.count_search(); },
             [&](const Node& leaf) {
-                counter_.count_tests(leaf.item_count);
+                counter_.count_leaf(leaf);
                 return visit(leaf);
             });
     }

@@ -51,17 +51,24 @@ std::optional<LightSample> sample_light(const Light& light, const Point3& point)
     return sample;
 }
 
-Color light_contribution(const Light& light, const LightSample& sample, const Material& material,
-                         const Vector3& normal, const Vector3& to_viewer) {
+LightTerms light_terms(const Light& light, const LightSample& sample, const Material& material,
+                       const Vector3& normal, const Vector3& to_viewer) {
     const double ambient = light.ambient_intensity * material.ambient_intensity;  // [eq. 42]
     const double diffuse = light.intensity * std::max(0.0, dot(normal, sample.to_light));  // [43]
-    Color reflected = material.diffuse_color * ambient + material.diffuse_color * diffuse;
+    LightTerms terms{material.diffuse_color * ambient, material.diffuse_color * diffuse, {}};
     if (material.specular_color != Color{}) {  // [eq. 44]
         const Vector3 halfway = normalized(sample.to_light + to_viewer);
         const double cosine = std::max(0.0, dot(normal, halfway));
         const double lobe = std::pow(cosine, 128 * material.shininess);
-        reflected += material.specular_color * (light.intensity * lobe);
+        terms.specular = material.specular_color * (light.intensity * lobe);
     }
+    return terms;
+}
+
+Color light_contribution(const Light& light, const LightSample& sample, const Material& material,
+                         const Vector3& normal, const Vector3& to_viewer) {
+    const LightTerms terms = light_terms(light, sample, material, normal, to_viewer);
+    const Color reflected = terms.ambient + terms.diffuse + terms.specular;
     return light.color * reflected * sample.strength;  // [eq. 37]
 }
 

@@ -25,6 +25,16 @@ Color lit_color(const Scene& scene, std::uint32_t object, const Material& materi
     return sum;
 }
 
+/// The material at `uv` of a primitive: with the mesh's color there, where it has colors.
+inline Material material_at(const Scene& scene, const PrimitiveSource& source,
+                            const Vec2<double>& uv) {
+    const Object& object = scene.objects[source.object];
+    const Material& own = scene.materials[object.material];
+    const auto* mesh = std::get_if<TriangleMesh>(&object.shape);
+    if (mesh == nullptr || mesh->colors.empty()) return own;
+    return with_color(own, mesh_color(*mesh, source.triangle, uv));
+}
+
 /// The color that `ray` (of unit direction) sees where it meets `hit`, in the one written order of
 /// operations that every tracer repeats. `unblocked(surface, i)`: whether light i shines on it.
 template <typename Kernel, typename Unblocked>
@@ -38,9 +48,7 @@ Color surface_color(const Scene& scene, const Kernel& kernel,
     const bool colored = mesh != nullptr && !mesh->colors.empty();
     if (!own.lit && !colored) return own.emissive_color;
     const auto surface = kernel.surface(prepared, hit, object);
-    const Material material =
-        colored ? with_color(own, mesh_color(*mesh, source.triangle, surface.uv)) : own;
-    return lit_color(scene, source.object, material, surface, ray,
+    return lit_color(scene, source.object, material_at(scene, source, surface.uv), surface, ray,
                      [&](std::size_t light) { return unblocked(surface, light); });
 }
 

@@ -8,7 +8,10 @@ namespace nuvo {
 
 /// Is told nothing, at no cost.
 struct NoObserver {
-    void hit(PrimitiveId) const {}
+    template <typename Hit>
+    void hit(const Hit&) const {}
+    template <typename Surface>
+    void asks(const Surface&, std::size_t) const {}
     void lit(std::size_t) const {}
 };
 
@@ -30,17 +33,18 @@ class Tracer {
         return image;
     }
 
-    /// [eq. 36, 37] `ray` has unit direction. `observer` hears of the nearest primitive and of
-    /// each light that reaches it.
+    /// [eq. 36, 37] `ray` has unit direction. `observer` hears of the nearest hit, of each light
+    /// that shines on the surface there unless something stands between, and of each that does.
     template <typename Observer = NoObserver>
     Color color(const Ray& ray, Observer&& observer = {}) {
         ++primary_rays_;
         const auto prepared = kernel_.prepare(ray);
         const auto hit = search_.closest(prepared);
         if (!hit) return scene_.background.color(ray.direction);
-        observer.hit(hit->primitive);
+        observer.hit(*hit);
         return surface_color(
             scene_, kernel_, prepared, *hit, ray, [&](const auto& surface, std::size_t light) {
+                observer.asks(surface, light);
                 if (scene_.lights[light].casts_shadow && blocked(surface, scene_.lights[light]))
                     return false;
                 observer.lit(light);

@@ -18,6 +18,16 @@ struct LightSample {
 /// cone, without a direction, or exactly at the point.
 std::optional<LightSample> sample_light(const Light& light, const Point3& point);
 
+/// What a material makes of a light of strength 1 and color 1. [eq. 42-44]
+struct LightTerms {
+    Color ambient;
+    Color diffuse;
+    Color specular;
+};
+/// `normal` and `to_viewer` are unit vectors.
+LightTerms light_terms(const Light& light, const LightSample& sample, const Material& material,
+                       const Vector3& normal, const Vector3& to_viewer);
+
 /// What an unblocked light adds: strength x color x (ambient + diffuse + specular). `normal` and
 /// `to_viewer` are unit vectors. [eq. 37, 42-44; ISO/IEC 19775-1 17.2.2.4]
 Color light_contribution(const Light& light, const LightSample& sample, const Material& material,
