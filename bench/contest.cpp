@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t kRays = 200'000;
 constexpr std::uint64_t kRaySeed = 1;
 
-FastOptions fast_options(const ContestOptions& options, OctreeType type) {
+FastOptions fast_options(const ContestOptions& options, std::optional<OctreeType> type) {
     FastOptions fast;
     fast.type = type;
     fast.isa = instruction_set(options.isa);
@@ -124,7 +124,7 @@ InstructionSet instruction_set(const std::string& name) {
 FrameContest contest_frames(const Scene& scene, const ContestOptions& options,
                             const Survey& survey) {
     FrameContest contest;
-    for (const OctreeType type : options.types) contest.ours.emplace_back().type = type;
+    for (const auto& type : options.types) contest.ours.emplace_back().type = type;
     Image ours;
     Image theirs;
     const std::size_t count = flatten(scene, LeafContent::kPrimitives).sources.size();
@@ -155,7 +155,7 @@ std::size_t pixels_unlike_exact(const Scene& scene, const ContestOptions& option
     const Octree octree = build_tree(scene, primitives, profile);
     const Image exact = render(scene, primitives, octree, profile, options.resolution);
     std::size_t differing = 0;
-    for (const OctreeType type : options.types) {
+    for (const auto& type : options.types) {
         FastTracer tracer(scene, primitives, fast_options(options, type));
         differing += agreement(exact, tracer.render(options.resolution)).differing;
     }
@@ -168,7 +168,7 @@ RayContest contest_rays(const Scene& scene, const ContestOptions& options, const
     const EmbreeScene built(floats, survey.options);
     const std::vector<Ray> rays = random_rays(primitives);
     std::vector<FastTracer> tracers;
-    for (const OctreeType type : options.types)
+    for (const auto& type : options.types)
         tracers.emplace_back(scene, primitives, fast_options(options, type));
     RayContest contest;
     contest.rays = rays.size();
@@ -188,7 +188,7 @@ RayContest contest_rays(const Scene& scene, const ContestOptions& options, const
 }
 
 ExactnessPrice price_of_exactness(const Scene& scene, const ContestOptions& options,
-                                  OctreeType type) {
+                                  std::optional<OctreeType> type) {
     const Primitives primitives = flatten(scene, LeafContent::kPrimitives);
     FastOptions fast = fast_options(options, type);
     FastTracer exact(scene, primitives, fast);
@@ -206,7 +206,7 @@ ExactnessPrice price_of_exactness(const Scene& scene, const ContestOptions& opti
 }
 
 ThreadContest contest_threads(const Scene& scene, const ContestOptions& options,
-                              const Survey& survey, OctreeType type) {
+                              const Survey& survey, std::optional<OctreeType> type) {
     const Primitives primitives = flatten(scene, LeafContent::kPrimitives);
     const FloatScene floats = to_float(scene, primitives);
     const EmbreeScene built(floats, survey.options);

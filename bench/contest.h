@@ -16,7 +16,8 @@ struct ContestOptions {
     std::string json;
     Resolution resolution;
     int rounds = 9;
-    std::vector<OctreeType> types{OctreeType::kNonuniform, OctreeType::kUniform};
+    /// None: the one that the tracer measures to be smaller.
+    std::vector<std::optional<OctreeType>> types{OctreeType::kNonuniform, OctreeType::kUniform};
     std::string isa;  ///< "avx512", "avx2", "sse4.2" or "sse2", for both; empty: the best
     std::string parts = "frame,check,rays,exactness,threads";
     std::optional<std::string> pov;       ///< write the scene for POV-Ray here and do nothing else
@@ -41,7 +42,7 @@ Survey survey_embree(const FloatScene& scene, const ContestOptions& options);
 
 /// One octree type's samples, seconds but for the memory.
 struct OurSamples {
-    OctreeType type = OctreeType::kUniform;
+    std::optional<OctreeType> type;
     Samples build;    ///< flattening included
     Samples scratch;  ///< build and first frame
     Samples frame;
@@ -99,7 +100,7 @@ struct ExactnessPrice {
     std::size_t differing = 0;  ///< pixels that the exact stages change
 };
 ExactnessPrice price_of_exactness(const Scene& scene, const ContestOptions& options,
-                                  OctreeType type);
+                                  std::optional<OctreeType> type);
 
 /// A frame with one and two threads, seconds on the wall.
 struct ThreadContest {
@@ -112,7 +113,7 @@ struct ThreadContest {
     bool same_bytes = true;
 };
 ThreadContest contest_threads(const Scene& scene, const ContestOptions& options,
-                              const Survey& survey, OctreeType type);
+                              const Survey& survey, std::optional<OctreeType> type);
 
 /// The instruction set that the options name.
 InstructionSet instruction_set(const std::string& name);

@@ -17,7 +17,7 @@ constexpr std::string_view kUsage =
     "usage: nuvo_peers --scene=FILE --json=FILE [option]...\n"
     "  --rounds=N       interleaved rounds (9)\n"
     "  --res=W,H        size of the pictures (1920,1080)\n"
-    "  --type=NAME      uniform or nonuniform octrees only\n"
+    "  --type=NAME      uniform, nonuniform or measured octrees only\n"
     "  --isa=NAME       avx512, avx2, sse4.2 or sse2 for both sides (the best)\n"
     "  --parts=LIST     of frame, check, rays, exactness, threads (all, with commas)\n"
     "  --pictures=NAME  write NAME-ours.bmp and NAME-embree.bmp\n"
@@ -38,7 +38,14 @@ Resolution parse_resolution(std::string_view text, std::string_view argument) {
             whole_number(text.substr(comma + 1), argument)};
 }
 
-std::vector<OctreeType> parse_type(std::string_view text) {
+constexpr std::string_view kMeasured = "measured";
+
+std::string_view type_name(std::optional<OctreeType> type) {
+    return type ? app::name_of(app::kOctreeTypes, *type) : kMeasured;
+}
+
+std::vector<std::optional<OctreeType>> parse_type(std::string_view text) {
+    if (text == kMeasured) return {std::nullopt};
     for (const auto& choice : app::kOctreeTypes)
         if (choice.name == text) return {choice.value};
     throw std::invalid_argument("--type: neither uniform nor nonuniform");
@@ -90,7 +97,7 @@ Scene load(const std::string& file) {
 
 void write_ours(app::JsonWriter& json, const OurSamples& samples) {
     json.begin_object();
-    json.member("type", app::name_of(app::kOctreeTypes, samples.type));
+    json.member("type", type_name(samples.type));
     write_samples(json, "build", samples.build);
     write_samples(json, "scratch", samples.scratch);
     write_samples(json, "frame", samples.frame);
@@ -149,7 +156,7 @@ void write_rays(app::JsonWriter& json, const RayContest& contest, const ContestO
     json.member("hits", contest.hits);
     json.member("differing", contest.differing);
     for (std::size_t i = 0; i < contest.ours.size(); ++i) {
-        const std::string type(app::name_of(app::kOctreeTypes, options.types[i]));
+        const std::string type(type_name(options.types[i]));
         write_samples(json, "ours_" + type, contest.ours[i]);
     }
     write_samples(json, "embree", contest.embree);
@@ -203,7 +210,7 @@ std::string measured(const Scene& scene, const ContestOptions& options) {
         return survey_embree(to_float(scene, primitives), options);
     }();
     write_survey(json, survey);
-    const OctreeType type = options.types.front();
+    const std::optional<OctreeType> type = options.types.front();
     if (wanted("frame")) write_frames(json, contest_frames(scene, options, survey));
     if (wanted("check")) json.member("pixels_unlike_exact", pixels_unlike_exact(scene, options));
     if (wanted("rays")) write_rays(json, contest_rays(scene, options, survey), options);

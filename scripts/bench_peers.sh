@@ -94,7 +94,7 @@ run_scenes() {
 people() {
     local name=$1
     measure "people-$name" "$(scene "people-$name" "${@:2}")" --rounds=$few \
-        --parts=frame,check,rays,exactness
+        --type=measured --parts=frame,check,rays,exactness
 }
 
 run_people() {

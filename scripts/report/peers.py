@@ -122,14 +122,14 @@ class Report:
             result = self.results.get(f"people-{name}")
             if result is None or "ours" not in result:
                 continue
-            mine, theirs = ours(result, self.type), result["embree"]
+            mine, theirs = ours(result, "measured"), result["embree"]
             rays = result.get("rays")
             price = result.get("exactness")
             primitives = result["triangles"] + result["spheres"]
             rows.append([title, f"{primitives:,}", with_interval(theirs["frame"]),
                          with_interval(mine["frame"]), ratio(theirs["frame"], mine["frame"]),
                          ratio(theirs["scratch"], mine["scratch"]),
-                         ratio(rays["embree"], rays[f"ours_{self.type}"]) if rays else "-",
+                         ratio(rays["embree"], rays["ours_measured"]) if rays else "-",
                          ratio(price["exact"], price["plain"]) if price else "-",
                          f"{mine['table_bytes'] / primitives:.0f}",
                          result.get("pixels_unlike_exact", "-")])

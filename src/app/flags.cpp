@@ -186,8 +186,7 @@ std::vector<Flag> thesis_flags() {
          "size of the picture, each side 1 to " + std::to_string(kMaxSidePixels) + " pixels",
          apply_resolution},
         {"type", "--type", joined_names(kOctreeTypes), "uniform",
-         "the octree; the fast profile's default is the one that was measured faster: " +
-             std::string(name_of(kOctreeTypes, fast_profile().type)),
+         "the octree; by default the fast profile takes what it measures to be smaller",
          apply_type},
         {"showoctree", "-showoctree", "", "", "print the octree as text first (extremely verbose)",
          [](Options& o, const std::string&) { o.show_octree = true; }},

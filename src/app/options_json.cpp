@@ -1,6 +1,7 @@
 #include "options_json.h"
 
 #include "nuvo/app/choices.h"
+#include "nuvo/app/report.h"
 
 namespace nuvo::app {
 
@@ -20,7 +21,9 @@ void write_profile(JsonWriter& json, const Options& options) {
     json.begin_object();
     json.member("name", options.profile_name);
     json.member("tracer", name_of(kTracers, profile.tracer));
-    json.member("type", options.compare ? "all" : name_of(kOctreeTypes, profile.type));
+    json.member("type", options.compare             ? "all"
+                        : type_is_measured(options) ? "measured"
+                                                    : name_of(kOctreeTypes, profile.type));
     json.member("midpoint", name_of(kMidpoints, cuts_freely ? free_cut : MidpointChoice::kSpatial));
     json.key("costs");
     if (profile.max_objects) {

@@ -54,7 +54,10 @@ class TileRun {
     std::vector<RayAnswer> answers(std::span<const Ray> rays) const {
         return tracer_.closest_hits(rays);
     }
-    void describe(Pass& pass) const { pass.tiles = figures(tracer_, options_); }
+    void describe(Pass& pass) const {
+        pass.name = name_of(kOctreeTypes, tracer_.octree_type());
+        pass.tiles = figures(tracer_, options_);
+    }
     void count(Pass& pass, Resolution resolution) {
         pass.tiles->counts = tracer_.count_rays(resolution);
         tracer_.render(resolution, &pass.tiles->stage_seconds.emplace());
@@ -112,7 +115,7 @@ Pass answer_once(const Scene& scene, const Options& options, std::span<const Ray
 
 FastOptions fast_options(const Options& options, const Profile& profile) {
     FastOptions fast;
-    fast.type = profile.type;
+    if (!type_is_measured(options)) fast.type = profile.type;
     fast.back_faces = profile.back_faces;
     fast.isa =
         options.isa == InstructionSet::kBest ? supported_instruction_sets().front() : options.isa;

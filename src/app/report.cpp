@@ -176,7 +176,8 @@ std::string profile_flags_text(const Options& options) {
     const Profile& profile = options.profile;
     std::string text = "--profile=" + options.profile_name;
     text += " --tracer=" + std::string(name_of(kTracers, profile.tracer));
-    if (!options.compare) text += " --type=" + std::string(name_of(kOctreeTypes, profile.type));
+    if (!options.compare && !type_is_measured(options))
+        text += " --type=" + std::string(name_of(kOctreeTypes, profile.type));
     const std::string back_faces =
         " --back-faces=" + std::string(name_of(kBackFaces, profile.back_faces));
     if (profile.tracer == TracerChoice::kTiles) return text + back_faces;  // the others are its own
@@ -207,8 +208,8 @@ std::string report_text(const Options& options, const Report& report) {
     text += format("%-10s %.6f s to read the scene\n", "read", report.parse_seconds);
     text += format("%-10s %s\n", "profile", profile_flags_text(options).c_str());
     if (type_is_measured(options))
-        text += format("%-10s %s, which was measured faster (--type chooses)\n", "type",
-                       std::string(name_of(kOctreeTypes, options.profile.type)).c_str());
+        text += format("%-10s %s, as measured on the scene (--type chooses)\n", "type",
+                       report.passes.front().name.c_str());
     if (!report.rays)
         text += format("%-10s %d x %d\n", "pixels", options.resolution.width,
                        options.resolution.height);

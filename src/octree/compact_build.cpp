@@ -16,6 +16,8 @@ namespace {
 // which corners and edges lie that would be on both sides.
 constexpr float kBelow = 0x1p-11F;
 constexpr float kAbove = 0x1.8p-10F;
+// So many times as many references as by the sweep are worth the sweep's longer build.
+constexpr double kManyMore = 1.5;
 
 Bounds3T<float> root_box(BoxSpan boxes) {
     Bounds3T<float> root;
@@ -108,9 +110,14 @@ CompactOctree build_compact_octree(std::span<const Bounds3T<float>> boxes,
                  options.free_references),
         CompactNode::kMaxNodes - 1.0};
     const Place root{tree.bounds, 1, allowance};
-    const Recipe recipe{boxes, options.overlaps, Prices(options.costs, tree.bounds, boxes.size()),
-                        options.rule, options.threads};
+    Recipe recipe{boxes, options.overlaps, Prices(options.costs, tree.bounds, boxes.size()),
+                  options.rule.value_or(CutRule::kSpatial), options.threads};
     std::vector<PlanNode> plan = make_plan(root, recipe);
+    if (!options.rule && references_beside(CutRule::kSweep, plan, recipe) > kManyMore) {
+        recipe.rule = CutRule::kSweep;
+        plan = make_plan(root, recipe);
+    }
+    tree.rule = recipe.rule;
     carry_out(plan, recipe);
     const Ranges ranges(plan, tree);
     tree.nodes.shrink_to_fit();

@@ -14,7 +14,8 @@ namespace {
 // A subtree is a task of at most this share of the items, but never smaller than kSmallestTask.
 constexpr std::size_t kTasks = 64;
 constexpr std::size_t kSmallestTask = 4096;
-constexpr std::size_t kChunk = 8192;  // items of a voxel that a thread marks at a time
+constexpr std::size_t kSmallestPart = 256;  // that tells how often a rule lists items
+constexpr std::size_t kChunk = 8192;        // items of a voxel that a thread marks at a time
 
 class Planner {
   public:
@@ -76,6 +77,21 @@ class Planner {
     SplitMasks masks_;
 };
 
+// Down to a voxel of at most so many items, always to the octant that holds most.
+PlanNode descend(PlanNode node, std::size_t most, const Recipe& recipe) {
+    Planner planner(recipe);
+    while (node.items.size() > most) {
+        node.split = planner.try_split(node);
+        if (!node.split) break;
+        const auto& counts = node.split->counts;
+        const auto fullest =
+            static_cast<unsigned>(std::max_element(counts.begin(), counts.end()) - counts.begin());
+        auto octants = planner.distribute(node);
+        node = {node.place.octant(*node.split, fullest), std::move(octants[fullest]), {}, 0, {}, 0};
+    }
+    return node;
+}
+
 }  // namespace
 
 std::vector<PlanNode> make_plan(const Place& root, const Recipe& recipe) {
@@ -100,6 +116,32 @@ std::vector<PlanNode> make_plan(const Place& root, const Recipe& recipe) {
         std::move(children.begin(), children.end(), std::back_inserter(plan));
     }
     return plan;
+}
+
+double references_beside(CutRule other, const std::vector<PlanNode>& plan, const Recipe& recipe) {
+    constexpr std::size_t kParts = 4;  // spread evenly over the items
+    const std::size_t most = std::max(kSmallestPart, recipe.boxes.size() / kTasks);
+    std::size_t items = 0;
+    for (const PlanNode& node : plan)
+        if (!node.split) items += node.items.size();
+    Recipe changed = recipe;
+    changed.rule = other;
+    SubtreeBuilder by_rule(recipe);
+    SubtreeBuilder by_other(changed);
+    std::size_t references = 0;
+    std::size_t of_other = 0;
+    std::size_t before = 0;
+    std::size_t part = 0;  // of those taken
+    for (const PlanNode& node : plan) {
+        if (node.split) continue;
+        before += node.items.size();
+        if (2 * kParts * before <= (2 * part + 1) * items) continue;
+        part = (2 * kParts * before / items + 1) / 2;
+        const PlanNode sample = descend(node, most, recipe);
+        references += by_rule.build(sample.place, sample.items).items.size();
+        of_other += by_other.build(sample.place, sample.items).items.size();
+    }
+    return of_other > 0 ? static_cast<double>(references) / static_cast<double>(of_other) : 1;
 }
 
 void carry_out(std::vector<PlanNode>& plan, const Recipe& recipe) {

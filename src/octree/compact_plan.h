@@ -23,6 +23,10 @@ struct PlanNode {
 /// more than a small share of the items, which does not depend on the number of threads.
 std::vector<PlanNode> make_plan(const Place& root, const Recipe& recipe);
 
+/// References by the recipe's rule as a multiple of those by another one, in a few parts of the
+/// scene whose items are a small share of all.
+double references_beside(CutRule other, const std::vector<PlanNode>& plan, const Recipe& recipe);
+
 /// Builds the subtrees and takes back what does not pay.
 void carry_out(std::vector<PlanNode>& plan, const Recipe& recipe);
 

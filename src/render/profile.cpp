@@ -8,10 +8,6 @@ namespace {
 constexpr double kThesisStep = 0.0025;
 // const float BIAS of thesis 5.3.2, in scene units.
 constexpr double kThesisBias = 0.04;
-// Build and one picture took less time on the teapot and tests 1 to 4, seen from far and near, with
-// a hundred times the triangles and with a million spheres. Pictures alone take as long with the
-// other, but for test 1 (7 to 20 % less): see docs/performance.md.
-constexpr OctreeType kFasterType = OctreeType::kUniform;
 
 }  // namespace
 
@@ -32,7 +28,6 @@ Profile exact_profile() { return {}; }
 Profile fast_profile() {
     Profile profile;
     profile.tracer = TracerChoice::kTiles;
-    profile.type = kFasterType;
     profile.walk = WalkChoice::kDescent;
     return profile;
 }

@@ -125,7 +125,7 @@ Report tile_example() {
 TEST(Report, PrintsWhatTheTileTracerTells) {
     const std::string text = report_text(parse({"--profile=fast"}), tile_example());
     for (const char* part :
-         {"--profile=fast --tracer=tiles", "which was measured faster (--type chooses)",
+         {"--profile=fast --tracer=tiles", "as measured on the scene (--type chooses)",
           "depth 5, 70 voxels with items, 90 nodes, 110 references, 2.5 MB",
           "2 threads, avx2, 0.3 MB of tables", "100 primary and 50 shadow rays\n",
           "tables 0.125000 s, primary rays 0.250000 s, shadow rays 0.500000 s, shading 0.750000 s",

@@ -84,8 +84,8 @@ TEST_F(Fast, TheReportSaysHowThePictureWasMade) {
     const Outcome outcome = run({"--file=a", "--rep=2", "--res=40,30", "--profile=fast",
                                  "--threads=2", "--isa=sse2", "--counters"});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    for (const char* part : {"profile    --profile=fast --tracer=tiles --type=",
-                             "which was measured faster", "27 spheres", " references, ",
+    for (const char* part : {"profile    --profile=fast --tracer=tiles --back-faces",
+                             "as measured on the scene", "27 spheres", " references, ",
                              "tiles      2 threads, sse2, ", "MB of tables", "stages     tables",
                              "counts     1200 primary and ", "wall       build ", "2 repetitions"})
         EXPECT_TRUE(contains(outcome.out, part)) << part << "\n" << outcome.out;

@@ -346,6 +346,24 @@ TEST(CompactBuild, AClusterInAWideSceneIsCutAboutAsFinely) {
     }
 }
 
+TEST(CompactBuild, CutsThroughCentresUnlessThatListsItemsMuchMoreOften) {
+    // 11 x 11 x 11 boxes with gaps, most of which no centre of a voxel meets.
+    std::vector<Box> lattice;
+    for (int i = 0; i < 11 * 11 * 11; ++i) {
+        const Vec3<float> p{static_cast<float>(i % 11), static_cast<float>(i / 11 % 11),
+                            static_cast<float>(i / 121)};
+        lattice.push_back({p, {p.x + 0.9F, p.y + 0.9F, p.z + 0.9F}});
+    }
+    CompactBuildOptions measured;
+    measured.rule = std::nullopt;
+    const CompactOctree tree = build_compact_octree(lattice, measured);
+    EXPECT_EQ(tree.rule, CutRule::kSweep);
+    EXPECT_EQ(tree.items, build_compact_octree(lattice, options(CutRule::kSweep)).items);
+    const std::vector<Box> small = random_boxes(17, 5000, 0.0001F);
+    EXPECT_EQ(build_compact_octree(small, measured).rule, CutRule::kSpatial);
+    EXPECT_EQ(build_compact_octree({}, measured).rule, CutRule::kSpatial);
+}
+
 TEST(CompactBuild, DearerStepsMakeSmallerTrees) {
     const std::vector<Box> boxes = random_boxes(15, 5000, 0.02F);
     for (const CutRule rule : kRules) {

@@ -89,7 +89,7 @@ struct Report {
     std::optional<std::size_t> hits;
 };
 
-/// Whether the octree's type is the profile's choice of the faster one.
+/// Whether the tile tracer chooses the octree's type by measuring the scene.
 bool type_is_measured(const Options& options);
 /// Every answer of a profile as the flags that give it.
 std::string profile_flags_text(const Options& options);

@@ -34,12 +34,17 @@ struct CompactNode {
 };
 static_assert(sizeof(CompactNode) == 16);
 
+/// Where a voxel is cut: through its centre, or on each axis where the surface area heuristic of
+/// the two sides is least.
+enum class CutRule : std::uint8_t { kSpatial, kSweep };
+
 /// An octree for tracing: nothing but cuts and non-empty children, node 0 the root, the children of
 /// a node side by side in octant order. A voxel is known on the way down only: `bounds` cut by the
 /// planes of its ancestors. An item is listed in every leaf whose closed voxel it touches.
 struct CompactOctree {
     static constexpr int kMaxDepth = 24;  ///< levels, the root's included
 
+    CutRule rule = CutRule::kSpatial;  ///< by which it was cut
     Bounds3T<float> bounds;
     std::vector<CompactNode> nodes;
     std::vector<std::uint32_t> items;  ///< of the leaves' runs; each run ascends

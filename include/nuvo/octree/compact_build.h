@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 
 #include "nuvo/math/bounds.h"
@@ -22,10 +23,6 @@ struct CutVoxel {
 using OctantTest = std::function<void(const CutVoxel& voxel, std::span<const std::uint32_t> items,
                                       std::span<std::uint8_t> masks)>;
 
-/// Where a voxel is cut: through its centre, or on each axis where the surface area heuristic of
-/// the two sides is least.
-enum class CutRule : std::uint8_t { kSpatial, kSweep };
-
 /// Prices in units of one primitive test, measured on whole frames.
 struct CompactCosts {
     double interior = 6;  ///< a step through a node's children
@@ -37,7 +34,8 @@ struct CompactCosts {
 };
 
 struct CompactBuildOptions {
-    CutRule rule = CutRule::kSpatial;
+    /// None: through centres, unless the sweep lists items much more seldom in a part of the scene.
+    std::optional<CutRule> rule = CutRule::kSpatial;
     CompactCosts costs;
     OctantTest overlaps;  ///< empty: the boxes decide
     int threads = 1;      ///< >= 1; the tree does not depend on it

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -23,7 +24,9 @@ enum class InstructionSet : std::uint8_t { kBest, kAvx512, kAvx2, kSse4, kSse2 }
 std::vector<InstructionSet> supported_instruction_sets();
 
 struct FastOptions {
-    OctreeType type = OctreeType::kUniform;
+    /// None: uniform, unless that lists a primitive much more often than a non-uniform octree does,
+    /// as measured on a part of the scene.
+    std::optional<OctreeType> type;
     int threads = 1;  ///< >= 1; the picture does not depend on it
     InstructionSet isa = InstructionSet::kBest;
     /// False: what the float stage leaves open is decided by its rounded values. For measuring what
@@ -72,6 +75,8 @@ class FastTracer {
     RayCounts count_rays(Resolution resolution) const;
 
     FastMemory memory() const;
+    /// The one in use.
+    OctreeType octree_type() const;
     const CompactOctree& octree() const;
 
   private:

@@ -86,6 +86,10 @@ RayCounts FastTracer::count_rays(Resolution resolution) const {
     return {counts.primary_rays, counts.shadow_rays};
 }
 
+OctreeType FastTracer::octree_type() const {
+    return octree().rule == CutRule::kSpatial ? OctreeType::kUniform : OctreeType::kNonuniform;
+}
+
 const CompactOctree& FastTracer::octree() const { return state_->fast.octree(); }
 
 FastMemory FastTracer::memory() const {

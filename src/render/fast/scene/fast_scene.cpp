@@ -123,8 +123,8 @@ CompactOctree octree_of(const LocalItems& items, CompactBuildOptions options) {
 
 }  // namespace
 
-FastScene::FastScene(const Scene& scene, const Primitives& primitives, OctreeType type, int threads,
-                     BackFaces back_faces)
+FastScene::FastScene(const Scene& scene, const Primitives& primitives,
+                     std::optional<OctreeType> type, int threads, BackFaces back_faces)
     : scene_(scene), primitives_(primitives), back_faces_(back_faces) {
     Bounds3 box;
     for (const KindSummary& kind : primitives.kinds) box = box.extended(kind.box);
@@ -138,7 +138,8 @@ FastScene::FastScene(const Scene& scene, const Primitives& primitives, OctreeTyp
     slot_end_ = sphere_end_ + count(PrimitiveKind::kEllipsoid);
     order_slots(box);
     CompactBuildOptions options;
-    options.rule = type == OctreeType::kUniform ? CutRule::kSpatial : CutRule::kSweep;
+    options.rule = std::nullopt;
+    if (type) options.rule = *type == OctreeType::kUniform ? CutRule::kSpatial : CutRule::kSweep;
     options.threads = threads;
     LocalItems items = LocalItemsMaker(*this).make(options.threads);
     octree_ = octree_of(items, options);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -41,8 +42,9 @@ using QuadricSpan = std::span<const QuadricSlot>;
 /// and lights.
 class FastScene {
   public:
-    FastScene(const Scene& scene, const Primitives& primitives, OctreeType type, int threads,
-              BackFaces back_faces = BackFaces::kSolid);
+    /// No type: whichever CompactBuildOptions::rule finds.
+    FastScene(const Scene& scene, const Primitives& primitives, std::optional<OctreeType> type,
+              int threads, BackFaces back_faces = BackFaces::kSolid);
 
     const Scene& scene() const { return scene_; }
     const Primitives& primitives() const { return primitives_; }
