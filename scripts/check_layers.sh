@@ -24,6 +24,7 @@ libraries=(
     "boost/chrono app"
     "boost/program_options app"
     "zlib scene"
+    "png image"
     "geos_c scene"
 )
 include='^[[:space:]]*#[[:space:]]*include[[:space:]]*'

@@ -5,7 +5,7 @@ nuvo_root=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)
 
 nuvo_packages=(cmake ninja-build g++ libboost-dev libboost-chrono-dev
     libboost-program-options-dev libnlopt-cxx-dev libgtest-dev nlohmann-json3-dev
-    zlib1g-dev libgeos-dev libhwy-dev python3)
+    zlib1g-dev libpng-dev libgeos-dev libhwy-dev python3)
 
 # The packages of "$@" that are not installed, one a line.
 nuvo_missing_packages() {

@@ -9,8 +9,8 @@
 #include "nuvo/app/describe.h"
 #include "nuvo/app/rays.h"
 #include "nuvo/app/report.h"
-#include "nuvo/image/bmp.h"
 #include "nuvo/image/file_writer.h"
+#include "nuvo/image/picture_file.h"
 #include "passes.h"
 #include "scene_files.h"
 #include "text.h"
@@ -111,7 +111,7 @@ ExitCode render_command(const Options& options) {
         std::cerr << "nuvo: note: " << remark << '\n';
     if (options.error) report.error = error_of(picture, loaded.scene, options);
     const StageStopwatch write;
-    image::write_bmp(picture_path, picture);
+    image::write_picture(picture_path, picture);
     report.write_seconds = write.seconds();
     report.picture = picture_path.string();
     write_json(options, report);
@@ -156,9 +156,9 @@ ExitCode compare_command(const Options& options) {
         }
     }
     const StageStopwatch write;
-    image::write_bmp(picture_path, pictures[0]);
-    image::write_bmp(difference_path,
-                     image::difference_picture(pictures[far_first], pictures[far_second]));
+    image::write_picture(picture_path, pictures[0]);
+    image::write_picture(difference_path,
+                         image::difference_picture(pictures[far_first], pictures[far_second]));
     report.write_seconds = write.seconds();
     report.picture = picture_path.string();
     report.difference = difference_path.string();
@@ -222,7 +222,8 @@ fs::path difference_beside(const fs::path& picture) {
     std::error_code ignored;
     if (fs::exists(picture, ignored) && !is_regular(picture)) return picture;
     fs::path name = picture.stem();
-    name += "-difference.bmp";
+    name += "-difference";
+    name += picture.has_extension() ? picture.extension() : fs::path(".bmp");
     return picture.parent_path() / name;
 }
 

@@ -269,7 +269,8 @@ std::vector<Flag> output_flags() {
              if (!v.empty()) o.study_json = v;
          }},
         {"out", "--out", "FILE", "",
-         "the picture (default: beside the scene), or the rays' answers",
+         "the picture (default: beside the scene), .png or .bmp by its ending; or the rays' "
+         "answers",
          [](Options& o, const std::string& v) { o.out = non_empty(v, "a file name"); }},
         {"json", "--json", "FILE", "", "write counts and every raw time to FILE",
          [](Options& o, const std::string& v) { o.json = non_empty(v, "a file name"); }},

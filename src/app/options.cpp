@@ -5,6 +5,8 @@
 #include <map>
 #include <numeric>
 
+#include "nuvo/image/picture_file.h"
+
 namespace nuvo::app {
 namespace {
 
@@ -161,6 +163,8 @@ void check_combinations(const Options& options, const std::map<std::string, std:
         for (const char* other : {"compare", "rays", "showoctree", "out", "json"})
             if (is_given(other))
                 throw UsageError(std::string("--describe draws nothing: leave ") + other + " out");
+    if (options.out && !options.rays && !image::picture_format(*options.out))
+        throw UsageError("--out=" + *options.out + ": pictures are .bmp or .png");
     check_tile_tracer(options, given);
     if (is_given("midpoint") && !options.compare && !options.study &&
         options.profile.type == OctreeType::kUniform)

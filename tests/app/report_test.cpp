@@ -162,6 +162,8 @@ TEST(Paths, ThePictureStandsBesideTheScene) {
 
 TEST(Paths, TheDifferencePictureStandsBesideThePicture) {
     EXPECT_EQ(difference_beside("a/b.bmp"), "a/b-difference.bmp");
+    EXPECT_EQ(difference_beside("a/b.png"), "a/b-difference.png");
+    EXPECT_EQ(difference_beside("a/b"), "a/b-difference.bmp");
     EXPECT_EQ(difference_beside("/dev/full"), "/dev/full");
 }
 

@@ -66,6 +66,18 @@ TEST_F(Program, OutReplacesWhatIsThere) {
     EXPECT_EQ(files(), (std::set<std::string>{"a.x3d", "picture"}));
 }
 
+TEST_F(Program, TheEndingOfOutChoosesTheFormat) {
+    put("a.x3d", kSmallScene);
+    EXPECT_EQ(run({"--file=a", "--res=40,30", "-compare", "--out=p.png"}).exit_code, 0);
+    EXPECT_EQ(files(), (std::set<std::string>{"a.x3d", "p.png", "p-difference.png"}));
+    for (const char* name : {"p.png", "p-difference.png"})
+        EXPECT_EQ(content(name).substr(0, 8), "\x89PNG\r\n\x1a\n") << name;
+    // Refused before anything is read or drawn: the scene is missing, too.
+    for (const char* out : {"p.jpg", "p.bmp.gz", "p."})
+        expect_refused({"--file=missing", std::string("--out=") + out}, 2,
+                       {std::string("--out=") + out, ".bmp or .png"});
+}
+
 TEST_F(Program, TheReportSaysWhatTheThesisSays) {
     put("a.x3d", kSmallScene);
     const Outcome outcome = run({"--file=a", "--rep=3", "--res=16,16"});

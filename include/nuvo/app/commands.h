@@ -37,8 +37,8 @@ std::filesystem::path find_scene(const std::string& name);
 /// Where the picture of a scene goes when nobody says: beside it, .x3d replaced by .bmp.
 std::filesystem::path picture_beside(const std::filesystem::path& scene);
 
-/// Where the difference picture goes: "NAME-difference.bmp" beside the picture; a picture that is
-/// no regular file (a device) takes it, too.
+/// Where the difference picture goes: "NAME-difference" beside the picture, with its ending; a
+/// picture that is no regular file (a device) takes it, too.
 std::filesystem::path difference_beside(const std::filesystem::path& picture);
 
 }  // namespace nuvo::app
