@@ -8,7 +8,7 @@ nuvo_install "${nuvo_packages[@]}" clang clang-format clang-tidy
 cd "$nuvo_root"
 
 echo "format"
-find include src tests testfileGenerator bench main.cpp -name '*.h' -o -name '*.cpp' | sort |
+find include src tests testfileGenerator bench study main.cpp -name '*.h' -o -name '*.cpp' | sort |
     xargs clang-format --dry-run -Werror
 
 echo "layers"

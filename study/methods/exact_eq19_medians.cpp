@@ -1,0 +1,11 @@
+#include "methods.h"
+
+namespace nuvo::study {
+
+MidpointStrategy exact_eq19_medians(std::uint64_t*) {
+    return [](const SplitQuery& query) {
+        return exact_midpoint(query, Weight::kShare, Space::kMedians);
+    };
+}
+
+}  // namespace nuvo::study

@@ -1,0 +1,11 @@
+#include "methods.h"
+
+namespace nuvo::study {
+
+MidpointStrategy exact_eq19_voxel(std::uint64_t*) {
+    return [](const SplitQuery& query) {
+        return exact_midpoint(query, Weight::kShare, Space::kVoxel);
+    };
+}
+
+}  // namespace nuvo::study

@@ -1,0 +1,10 @@
+#include "methods.h"
+#include "methods/nlopt_search.h"
+
+namespace nuvo::study {
+
+MidpointStrategy mlsl_lds_sbplx(std::uint64_t* evaluations) {
+    return nlopt_strategy(Search::kMlslLdsSbplx, evaluations);
+}
+
+}  // namespace nuvo::study

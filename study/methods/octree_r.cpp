@@ -1,0 +1,11 @@
+#include "methods.h"
+
+namespace nuvo::study {
+
+MidpointStrategy octree_r(std::uint64_t*) {
+    return [](const SplitQuery& query) {
+        return exact_midpoint(query, Weight::kArea, Space::kMedians);
+    };
+}
+
+}  // namespace nuvo::study
