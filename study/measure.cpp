@@ -179,7 +179,7 @@ std::vector<Row> measure(const Scene& scene, std::span<const Method* const> meth
             const app::StageStopwatch build;
             c.build();
             c.row.build_seconds.push_back(build.seconds());
-            Work ignored;
+            Work ignored{.timed = true};
             const app::StageStopwatch trace;
             c.picture(options.resolution, ignored);
             c.row.trace_seconds.push_back(trace.seconds());

@@ -40,6 +40,12 @@ constexpr std::array kScenes{
     Scene{"assembly", "--count=N cars of 28,500 triangles", assembly_scene, kCount},
     Scene{"floor", "a ball on a floor --count=N times as wide", floor_scene, kCount},
     Scene{"molecule", "a chain of --count=N spheres", molecule_scene, kCount},
+    Scene{"aisles", "study: --count=N octahedra in blocks between aisles", aisles_scene, kCount},
+    Scene{"drift", "study: --count=N octahedra, thickest in one corner", drift_scene, kCount},
+    Scene{"stadium", "study: --count=N octahedra, half of them in a small cluster", stadium_scene,
+          kCount},
+    Scene{"sticks", "study: --count=N long thin octahedra", sticks_scene, kCount},
+    Scene{"sizes", "study: --count=N octahedra of sizes over a wide range", sizes_scene, kCount},
 };
 
 }  // namespace

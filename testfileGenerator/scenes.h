@@ -79,4 +79,11 @@ std::string assembly_scene(const Variation& variation);
 std::string floor_scene(const Variation& variation);
 std::string molecule_scene(const Variation& variation);
 
+// Families for the study of midpoints; the seed varies what makes each hard.
+std::string aisles_scene(const Variation& variation);
+std::string drift_scene(const Variation& variation);
+std::string stadium_scene(const Variation& variation);
+std::string sticks_scene(const Variation& variation);
+std::string sizes_scene(const Variation& variation);
+
 }  // namespace nuvo::generator

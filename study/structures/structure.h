@@ -23,6 +23,7 @@ struct Work {
     std::uint64_t tests = 0;   ///< one ray against one leaf item
     std::uint64_t leaves = 0;  ///< leaves or cells entered: the thesis' voxel searches, about
     std::uint64_t nodes = 0;   ///< interior nodes met on the way
+    bool timed = false;        ///< counts that cost time are left out
 };
 
 /// Sizes of a finished structure.
@@ -120,6 +121,7 @@ class OctreeStructure {
         Label before = 0;
         int digits_before = 0;
         walk(ray, std::numeric_limits<double>::infinity(), [&](const Node& node, double exit) {
+            if (work.timed) return leaf(octree_.contents(node)) || exit >= limit();
             // Down from the lowest ancestor that this leaf shares with the one before.
             const int digits = label_digits(node.label);
             Label a = node.label, b = before;

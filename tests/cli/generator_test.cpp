@@ -307,7 +307,9 @@ TEST(Generator, LeavesTheMiddleOfTest1ToTheLight) {
 }
 
 TEST(Generator, AnotherSeedChangesTheScenesForMeasuringAndNoOthers) {
-    for (const std::string name : {"spheres --count=20", "octahedra --count=20"}) {
+    for (const std::string name :
+         {"spheres --count=20", "octahedra --count=20", "aisles --count=20", "drift --count=20",
+          "stadium --count=20", "sticks --count=20", "sizes --count=20"}) {
         const std::string text = generate(name).text;
         EXPECT_TRUE(generate(name + " --seed=2").text == text) << name;
         const std::string other = generate(name + " --seed=1").text;
@@ -319,6 +321,24 @@ TEST(Generator, AnotherSeedChangesTheScenesForMeasuringAndNoOthers) {
         EXPECT_TRUE(generate(name + " --seed=1").text == test_file(name)) << name;
     }
     EXPECT_EQ(generate("both --seed=18446744073709551615").exit_code, 0);
+}
+
+// Seeds 0 to 4 step from a hall 16 times as wide as the cluster to one 4,096 times as wide.
+TEST(Generator, WidensTheStudysStadiumFromSeedToSeed) {
+    const auto widest_cluster = [](const std::string& seed) {
+        const auto centers =
+            number_lists(generate("stadium --count=100 --seed=" + seed).text, "translation='");
+        EXPECT_EQ(centers.size(), 100U);
+        double widest = 0;
+        for (std::size_t i = 1; i < centers.size(); i += 2)
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                widest = std::max(widest, std::abs(centers.at(i)[axis] - centers.at(1)[axis]));
+        return widest;
+    };
+    EXPECT_GT(widest_cluster("0"), 1000 / 16 / 2);
+    EXPECT_LE(widest_cluster("0"), 1000 / 16 + 1);
+    EXPECT_GT(widest_cluster("4"), 1000. / 4096 / 2);
+    EXPECT_LE(widest_cluster("4"), 1000. / 4096);
 }
 
 /// The camera's distance from the scene's front and half the scene's height, from what the file
