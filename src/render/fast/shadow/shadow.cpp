@@ -8,6 +8,7 @@
 #include <hwy/foreach_target.h>
 
 #include "fast/shadow/segment_box.h"
+#include "fast/shadow/segment_walk.h"
 #include "fast/shadow/shadow_beam.h"
 #include "fast/shadow/shadow_block.h"
 #include "fast/shadow/shadow_lookup.h"
@@ -45,8 +46,12 @@ class ShadowTracer {
     }
 
   private:
-    // More open questions than this are settled at once: they take memory.
-    static constexpr std::size_t kMostOpen = 4096;
+    // Where floats leave more than this open of a beam or of a point, what is near the points is
+    // found in double.
+    static constexpr std::size_t kMostOpenOfBeam = 128;
+    static constexpr std::ptrdiff_t kMostOpenOfPoint = 32;
+    // And where a beam meets more items than this.
+    static constexpr std::size_t kMostTests = 1024;
 
     HWY_NOINLINE void walk(ShadowBlock& block, std::uint32_t lanes) {
         const ShadowTables& tables = context_.job.tables;
@@ -61,6 +66,12 @@ class ShadowTracer {
         const float error = highest(select(there, block.error(), Floats(0.0F)));
         const float slack =
             (error + tables.plane_error()) * (1 + 4 * kFloatRoundoff) + 8 * kFloatRoundoff;
+        std::vector<OpenShadow>& open = context_.job.open;
+        const std::size_t open_before = open.size();
+        std::size_t tests = 0;
+        const auto too_many = [&] {
+            return open.size() - open_before > kMostOpenOfBeam || tests > kMostTests;
+        };
         Mailbox& mailbox = context_.job.mailbox;
         mailbox.start();
         walk_beam(
@@ -70,9 +81,44 @@ class ShadowTracer {
                 for (std::uint32_t i = 0; i < count; ++i)
                     if (tables.hides(light_, items[i]) && !mailbox.seen(items[i]))
                         block.test(context_, items[i], lanes);
-                if (context_.job.open.size() > kMostOpen) settle();
-                return (block.waiting() & lanes) == 0;
+                tests += count;
+                return (block.waiting() & lanes) == 0 || too_many();
             });
+        if (!too_many()) return;
+        open.resize(open_before);
+        const auto b = static_cast<std::uint32_t>(&block - blocks_);
+        for (std::uint32_t rest = block.waiting() & lanes; rest != 0; rest &= rest - 1)
+            walk_alone(b * kBlockLanes + static_cast<std::uint32_t>(std::countr_zero(rest)));
+    }
+
+    auto shadow_ray(std::uint32_t lane) const {
+        const auto i = static_cast<int>(lane);
+        return fallback_.shadow_ray(tile_.x + lane_x(i), tile_.y + lane_y(i), tile_.slot[i],
+                                    light_);
+    }
+
+    // The walk of a single point, in double.
+    HWY_NOINLINE void walk_alone(std::uint32_t lane) {
+        const ShadowTables& tables = context_.job.tables;
+        const FastScene& scene = tables.scene();
+        const auto ray = shadow_ray(lane);
+        Mailbox& mailbox = context_.job.mailbox;
+        mailbox.start();
+        // The lit primitive, whose root rounding may lose, is asked in any case.
+        const Slot lit = tile_.slot[lane];
+        bool blocked = fallback_.blocks(ray, lit);
+        mailbox.seen(lit);
+        const auto leaf = [&](const std::uint32_t* items, std::uint32_t count) {
+            return std::any_of(items, items + count, [&](Slot item) {
+                return tables.hides(light_, item) && !mailbox.seen(item) && blocks(ray, item);
+            });
+        };
+        if (!blocked)
+            blocked = SegmentWalk(ray.ray, ray.end, scene.frame()).any(scene.octree(), leaf);
+        if (blocked) block_lane(lane);
+    }
+    void block_lane(std::uint32_t lane) {
+        blocks_[lane / kBlockLanes].block(1U << lane % kBlockLanes);
     }
 
     // By counting: lists are long where nothing else is.
@@ -104,14 +150,14 @@ class ShadowTracer {
             const std::uint32_t lane = at->lane;
             const auto end = std::find_if(at, open.end(),
                                           [lane](const auto& other) { return other.lane != lane; });
-            ShadowBlock& block = blocks_[lane / kBlockLanes];
-            const std::uint32_t bit = 1U << lane % kBlockLanes;
-            if ((block.waiting() & bit) != 0) {
-                const auto i = static_cast<int>(lane);
-                const auto ray = fallback_.shadow_ray(tile_.x + lane_x(i), tile_.y + lane_y(i),
-                                                      tile_.slot[i], light_);
+            const bool waiting =
+                (blocks_[lane / kBlockLanes].waiting() >> lane % kBlockLanes & 1) != 0;
+            if (waiting && end - at > kMostOpenOfPoint) {
+                walk_alone(lane);
+            } else if (waiting) {
+                const auto ray = shadow_ray(lane);
                 if (std::any_of(at, end, [&](const auto& o) { return blocks(ray, o.item); }))
-                    block.block(bit);
+                    block_lane(lane);
             }
             at = end;
         }
