@@ -5,6 +5,7 @@
 #include <system_error>
 #include <tuple>
 
+#include "look.h"
 #include "nuvo/app/choices.h"
 #include "nuvo/app/describe.h"
 #include "nuvo/app/rays.h"
@@ -67,6 +68,9 @@ image::Difference error_of(const Image& picture, const Scene& scene, const Optio
     Options plain = options;
     plain.counters = false;
     plain.json.reset();
+    plain.heatmap.reset();
+    plain.planes.reset();
+    plain.octree.reset();
     Image exact;
     run_pass(scene, plain, exact_like(options.profile), 1, exact);
     return image::compare(picture, exact);
@@ -100,7 +104,9 @@ bool is_further_apart(const image::Difference& a, const image::Difference& b) {
 ExitCode render_command(const Options& options) {
     const LoadedScene loaded = load(options);
     const fs::path picture_path = chosen_picture(options, loaded);
-    check_outputs({loaded.path}, with_json({picture_path}, options));
+    std::vector<fs::path> outputs = look_files(options, picture_path);
+    outputs.push_back(picture_path);
+    check_outputs({loaded.path}, with_json(outputs, options));
     if (options.show_octree) show_octree(loaded.scene, options.profile);
 
     Report report = begin_report(loaded);
@@ -114,6 +120,7 @@ ExitCode render_command(const Options& options) {
     image::write_picture(picture_path, picture);
     report.write_seconds = write.seconds();
     report.picture = picture_path.string();
+    write_looks(options, picture_path, report.passes.front(), report);
     write_json(options, report);
     print_report(options, report);
     return kDone;

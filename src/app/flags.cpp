@@ -5,6 +5,7 @@
 
 #include "nuvo/app/choices.h"
 #include "nuvo/app/options.h"
+#include "octree_file.h"
 
 namespace nuvo::app {
 namespace {
@@ -110,6 +111,21 @@ void apply_isa(Options& options, const std::string& value) {
         supported += (supported.empty() ? "" : ", ") + std::string(name_of(kInstructionSets, isa));
     }
     throw UsageError("this machine has " + supported);
+}
+
+void apply_octree(Options& options, const std::string& value) {
+    if (octree_format(value) == nullptr) throw UsageError("octrees are .x3d, .json or .bin");
+    options.octree = value;
+}
+
+void apply_pixel(Options& options, const std::string& value) {
+    const std::string demand = "must be x,y within the picture, counted from 0,0 at its top left";
+    const std::size_t comma = value.find(',');
+    if (comma == std::string::npos) throw UsageError(demand);
+    const std::string_view text = value;
+    options.pixel = {
+        parse_integer(text.substr(0, comma), 0, options.resolution.width - 1, demand),
+        parse_integer(text.substr(comma + 1), 0, options.resolution.height - 1, demand)};
 }
 
 /// A whole number from 1 to `most`.
@@ -292,9 +308,36 @@ std::vector<Flag> output_flags() {
     };
 }
 
+std::vector<Flag> look_flags() {
+    return {
+        {"heatmap", "--heatmap", joined_names(kHeatmaps), "",
+         "paint what each pixel cost, beside the picture as NAME-tests.png: intersection tests, "
+         "voxel searches, or the stage of arithmetic that its tests needed",
+         [](Options& o, const std::string& v) { o.heatmap = parse_choice(kHeatmaps, v); }},
+        {"heatmap-max", "--heatmap-max", "N", "",
+         "the value at the top of the heat map's scale, so that several share one; else its own "
+         "largest value",
+         [](Options& o, const std::string& v) {
+             o.heatmap_max = parse_number(v, 0, false, "must be a number > 0");
+         }},
+        {"planes", "--planes", "PREFIX", "",
+         "write a NumPy array of one value a pixel each to PREFIX-tests.npy, -searches, -t, "
+         "-shape, -triangle and -stage",
+         [](Options& o, const std::string& v) { o.planes = non_empty(v, "a prefix of names"); }},
+        {"octree", "--octree", "FILE", "",
+         "write the octree's voxels: .x3d, a wireframe colored by depth for Blender and others; "
+         ".json; or .bin, 8 float32 a voxel",
+         apply_octree},
+        {"pixel", "--pixel", "x,y", "",
+         "tell the life of one pixel's ray, its voxels, tests, shadow rays and colors, as text and "
+         "with --json as JSON, and draw nothing; from 0,0, the top left",
+         apply_pixel},
+    };
+}
+
 std::vector<Flag> make_flags() {
     std::vector<Flag> all = thesis_flags();
-    for (const auto& part : {profile_flags(), output_flags(), scene_flags()})
+    for (const auto& part : {profile_flags(), output_flags(), look_flags(), scene_flags()})
         all.insert(all.end(), part.begin(), part.end());
     return all;
 }

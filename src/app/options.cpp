@@ -138,6 +138,29 @@ void check_tile_tracer(const Options& options, const std::map<std::string, std::
                          "(add --tracer=serial)");
 }
 
+/// Planes, heat maps and octrees belong to one picture; a pixel is told of without one.
+void check_looking(const Options& options, const std::map<std::string, std::string>& given) {
+    const auto is_given = [&given](const char* name) { return given.count(name) != 0; };
+    const auto refuse = [&](const char* flag, std::initializer_list<const char*> others) {
+        for (const char* other : others)
+            if (is_given(flag) && is_given(other))
+                throw UsageError("--" + std::string(flag) + " and --" + other +
+                                 " cannot be combined");
+    };
+    for (const char* flag : {"heatmap", "planes", "octree", "pixel"})
+        refuse(flag, {"compare", "rays", "study", "describe"});
+    refuse("pixel", {"heatmap", "planes", "error", "showoctree", "out", "counters"});
+    if (options.heatmap_max && !options.heatmap)
+        throw UsageError("--heatmap-max=" + given.at("heatmap-max") +
+                         ": there is no heat map (add --heatmap=tests)");
+    if (options.heatmap_max && options.heatmap == HeatmapOf::kStage)
+        throw UsageError("--heatmap=stage has one scale: leave --heatmap-max out");
+    if (options.heatmap == HeatmapOf::kStage && options.profile.precision != Precision::kExact)
+        throw UsageError(
+            "--heatmap=stage: tests in float or double have one stage only (add "
+            "--precision=exact)");
+}
+
 void check_combinations(const Options& options, const std::map<std::string, std::string>& given) {
     const auto is_given = [&given](const char* name) { return given.count(name) != 0; };
     if (options.compare && is_given("type"))
@@ -165,6 +188,7 @@ void check_combinations(const Options& options, const std::map<std::string, std:
                 throw UsageError(std::string("--describe draws nothing: leave ") + other + " out");
     if (options.out && !options.rays && !image::picture_format(*options.out))
         throw UsageError("--out=" + *options.out + ": pictures are .bmp or .png");
+    check_looking(options, given);
     check_tile_tracer(options, given);
     if (is_given("midpoint") && !options.compare && !options.study &&
         options.profile.type == OctreeType::kUniform)

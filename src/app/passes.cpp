@@ -31,9 +31,17 @@ class SerialRun {
         return closest_hits(scene_, primitives_, &octree_, profile_, rays);
     }
     void describe(Pass& pass) const { pass.tree = figures(octree_); }
-    void count(Pass& pass, Resolution resolution) const {
-        pass.counts = count_events(scene_, primitives_, octree_, profile_, resolution);
+    void count(Pass& pass, const Options& options) const {
+        if (options.wants_planes()) {
+            pass.planes =
+                record_planes(scene_, primitives_, &octree_, profile_, options.resolution);
+            pass.counts = pass.planes->counts;
+        } else if (options.counters || options.json) {
+            pass.counts = count_events(scene_, primitives_, octree_, profile_, options.resolution);
+        }
     }
+    /// Gives the octree away.
+    void leave_octree(Pass& pass) { pass.octree = std::move(octree_); }
 
   private:
     const Scene& scene_;
@@ -42,11 +50,19 @@ class SerialRun {
     Octree octree_;
 };
 
+// The tile tracer's profiles hold the answers of the exact one, whose pictures it makes.
+Profile as_serial(Profile profile) {
+    profile.tracer = TracerChoice::kSerial;
+    return profile;
+}
+
 /// The other: the tile tracer.
 class TileRun {
   public:
     TileRun(const Scene& scene, const Options& options, const Profile& profile)
-        : primitives_(flatten(scene, LeafContent::kPrimitives)),
+        : scene_(scene),
+          walked_(as_serial(profile)),
+          primitives_(flatten(scene, LeafContent::kPrimitives)),
           options_(fast_options(options, profile)),
           tracer_(scene, primitives_, options_) {}
 
@@ -58,15 +74,27 @@ class TileRun {
         pass.name = name_of(kOctreeTypes, tracer_.octree_type());
         pass.tiles = figures(tracer_, options_);
     }
-    void count(Pass& pass, Resolution resolution) {
-        pass.tiles->counts = tracer_.count_rays(resolution);
-        tracer_.render(resolution, &pass.tiles->stage_seconds.emplace());
+    void count(Pass& pass, const Options& options) {
+        if (options.counters || options.json) {
+            pass.tiles->counts = tracer_.count_rays(options.resolution);
+            tracer_.render(options.resolution, &pass.tiles->stage_seconds.emplace());
+        }
+        if (!options.wants_planes() && !options.octree) return;
+        walked_.type = tracer_.octree_type();
+        walk_.emplace(scene_, options, walked_);
+        walk_->describe(pass);
+        if (options.wants_planes()) walk_->count(pass, options);
     }
+    OctreeType octree_type() const { return tracer_.octree_type(); }
+    void leave_octree(Pass& pass) { walk_->leave_octree(pass); }
 
   private:
+    const Scene& scene_;
+    Profile walked_;
     Primitives primitives_;
     FastOptions options_;
     FastTracer tracer_;
+    std::optional<SerialRun> walk_;  // that others can look at
 };
 
 template <typename Run>
@@ -88,9 +116,10 @@ Pass run_repeatedly(const Scene& scene, const Options& options, const Profile& p
     }
     pass.process = process.elapsed();
     run->describe(pass);
-    if (options.counters || options.json) run->count(pass, options.resolution);
+    run->count(pass, options);
     pass.remarks = remarks(scene, profile, picture,
                            [&](std::span<const Ray> rays) { return run->answers(rays); });
+    if (options.octree) run->leave_octree(pass);
     return pass;
 }
 
@@ -112,6 +141,13 @@ Pass answer_once(const Scene& scene, const Options& options, std::span<const Ray
 }
 
 }  // namespace
+
+Profile walked_profile(const Scene& scene, const Options& options) {
+    if (options.profile.tracer == TracerChoice::kSerial) return options.profile;
+    Profile walked = as_serial(options.profile);
+    walked.type = TileRun(scene, options, options.profile).octree_type();
+    return walked;
+}
 
 FastOptions fast_options(const Options& options, const Profile& profile) {
     FastOptions fast;

@@ -15,6 +15,10 @@ FastOptions fast_options(const Options& options, const Profile& profile);
 Pass run_pass(const Scene& scene, const Options& options, const Profile& profile, int repetitions,
               Image& picture);
 
+/// The profile whose walk --planes, --heatmap, --octree and --pixel look at: the one given, or for
+/// the tile tracer the serial one of the same picture, the exact profile, on an octree of the same type.
+Profile walked_profile(const Scene& scene, const Options& options);
+
 /// Renders with every primitive against every ray.
 Pass run_brute_force(const Scene& scene, const Options& options, Image& picture);
 

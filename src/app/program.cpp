@@ -68,6 +68,7 @@ ExitCode obey(const Options& options) {
     if (options.describe) return describe_command(options);
     if (options.compare) return compare_command(options);
     if (options.study) return study_command(options);
+    if (options.pixel) return pixel_command(options);
     if (options.rays) return rays_command(options);
     return render_command(options);
 }

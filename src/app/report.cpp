@@ -86,12 +86,22 @@ std::string predicates_line(const PredicateCounts& predicates) {
         static_cast<unsigned long long>(predicates.exact));
 }
 
-std::string octree_lines(const Pass& pass) {
-    if (pass.tiles) return tile_lines(pass);
+std::string tree_lines(const Pass& pass) {
     std::string lines =
         pass.tree ? tree_line(pass) : format("%-10s none: %s\n", "octree", pass.name.c_str());
     if (pass.counts) lines += counts_line(*pass.counts);
     if (pass.counts && pass.counts->predicates) lines += predicates_line(*pass.counts->predicates);
+    return lines;
+}
+
+std::string octree_lines(const Pass& pass) {
+    std::string lines;
+    if (pass.tiles) {
+        lines = tile_lines(pass);
+        if (pass.tree)
+            lines += format("%-10s the serial exact profile's, for what looks at it:\n", "walk");
+    }
+    if (!pass.tiles || pass.tree) lines += tree_lines(pass);
     return lines;
 }
 
@@ -228,6 +238,14 @@ std::string report_text(const Options& options, const Report& report) {
         text += format("%-10s %zu, %zu of them hit\n", "rays", *report.rays, *report.hits);
     if (!report.picture.empty())
         text += format("%-10s %s\n", report.rays ? "answers" : "picture", report.picture.c_str());
+    if (report.heatmap)
+        text += format("%-10s %s: %s 0 to %g, the scale to %g\n", "heat map",
+                       report.heatmap->file.c_str(),
+                       std::string(name_of(kHeatmaps, report.heatmap->of)).c_str(),
+                       report.heatmap->largest, report.heatmap->scale_max);
+    for (const std::string& plane : report.planes)
+        text += format("%-10s %s\n", "plane", plane.c_str());
+    if (!report.octree.empty()) text += format("%-10s %s\n", "voxels", report.octree.c_str());
     if (!report.difference.empty())
         text += format("%-10s %s\n", "difference", report.difference.c_str());
     return text;

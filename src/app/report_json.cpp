@@ -48,7 +48,7 @@ void write_counts(JsonWriter& json, const TraceCounts& counts) {
     json.end_object();
 }
 
-void write_tiles(JsonWriter& json, const TileFigures& tiles) {
+void write_tiles(JsonWriter& json, const TileFigures& tiles, bool has_serial_counts) {
     json.key("tiles");
     json.begin_object();
     json.member("threads", tiles.threads);
@@ -60,7 +60,7 @@ void write_tiles(JsonWriter& json, const TileFigures& tiles) {
     json.member("structure_bytes", tiles.memory.structure);
     json.member("table_bytes", tiles.memory.tables);
     json.end_object();
-    if (tiles.counts) {
+    if (tiles.counts && !has_serial_counts) {
         json.key("counts");
         json.begin_object();
         json.member("primary_rays", tiles.counts->primary_rays);
@@ -78,7 +78,7 @@ void write_tiles(JsonWriter& json, const TileFigures& tiles) {
 }
 
 void write_pass(JsonWriter& json, const Pass& pass) {
-    if (pass.tiles) write_tiles(json, *pass.tiles);
+    if (pass.tiles) write_tiles(json, *pass.tiles, pass.counts.has_value());
     if (pass.tree) write_tree(json, *pass.tree);
     if (pass.counts) write_counts(json, *pass.counts);
     json.member("build_seconds", pass.build_seconds);
@@ -125,6 +125,28 @@ void write_pairs(JsonWriter& json, const std::vector<Pair>& pairs) {
     json.end_array();
 }
 
+/// What was written for others to look at.
+void write_looks(JsonWriter& json, const Options& options, const Report& report) {
+    if (report.heatmap) {
+        json.key("heatmap");
+        json.begin_object();
+        json.member("file", report.heatmap->file);
+        json.member("of", name_of(kHeatmaps, report.heatmap->of));
+        json.member("largest", report.heatmap->largest);
+        json.member("scale_max", report.heatmap->scale_max);
+        json.end_object();
+    }
+    if (!report.planes.empty()) {
+        json.key("planes");
+        json.begin_array();
+        for (const std::string& plane : report.planes) json.value(plane);
+        json.end_array();
+    }
+    if (!report.octree.empty()) json.member("octree_file", report.octree);
+    if (options.profile.tracer == TracerChoice::kTiles && report.passes.front().tree)
+        json.member("walk", "serial exact");  // whose tree and counts these are
+}
+
 }  // namespace
 
 std::string report_json(const Options& options, const Report& report) {
@@ -134,6 +156,7 @@ std::string report_json(const Options& options, const Report& report) {
     json.member("file", report.file);
     if (!report.picture.empty()) json.member(report.rays ? "answers" : "picture", report.picture);
     if (!report.difference.empty()) json.member("difference_picture", report.difference);
+    write_looks(json, options, report);
     if (!report.rays) {
         write_resolution(json, options.resolution);
         json.member("repetitions", report.passes.front().trace_seconds.size());

@@ -3,7 +3,7 @@
 
 namespace nuvo::study {
 
-MidpointStrategy isres(Evaluations* evaluations) {
+MidpointStrategy isres(std::uint64_t* evaluations) {
     return nlopt_strategy(Search::kIsres, evaluations);
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "nuvo/app/options.h"
 #include "nuvo/render/fast.h"
 #include "nuvo/render/profile.h"
 #include "nuvo/scene/x3d.h"
@@ -45,6 +46,9 @@ inline constexpr std::array kTracers{Choice{"serial", TracerChoice::kSerial},
 inline constexpr std::array kInstructionSets{
     Choice{"avx512", InstructionSet::kAvx512}, Choice{"avx2", InstructionSet::kAvx2},
     Choice{"sse4", InstructionSet::kSse4}, Choice{"sse2", InstructionSet::kSse2}};
+inline constexpr std::array kHeatmaps{Choice{"tests", HeatmapOf::kTests},
+                                      Choice{"searches", HeatmapOf::kSearches},
+                                      Choice{"stage", HeatmapOf::kStage}};
 inline constexpr std::array kDefaults{Choice{"x3d", &x3d::standard_defaults},
                                       Choice{"thesis", &x3d::thesis_defaults}};
 inline constexpr std::array kHeadlights{Choice{"auto", x3d::Headlight::kAuto},

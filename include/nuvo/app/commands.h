@@ -26,6 +26,8 @@ ExitCode compare_command(const Options& options);
 ExitCode study_command(const Options& options);
 /// Answers the rays of a file.
 ExitCode rays_command(const Options& options);
+/// Tells the life of one pixel's ray.
+ExitCode pixel_command(const Options& options);
 /// Says what was read and draws nothing.
 ExitCode describe_command(const Options& options);
 // All throw UsageError, x3d::Error, RaysError, image::WriteError and std::bad_alloc.
@@ -36,6 +38,10 @@ std::filesystem::path find_scene(const std::string& name);
 
 /// Where the picture of a scene goes when nobody says: beside it, .x3d replaced by .bmp.
 std::filesystem::path picture_beside(const std::filesystem::path& scene);
+
+/// Where the heat map goes: "NAME-tests.png" beside the picture; a picture that is no regular file
+/// (a device) takes it, too.
+std::filesystem::path heatmap_beside(const std::filesystem::path& picture, HeatmapOf of);
 
 /// Where the difference picture goes: "NAME-difference" beside the picture, with its ending; a
 /// picture that is no regular file (a device) takes it, too.

@@ -18,6 +18,15 @@ inline constexpr std::size_t kLargestMaxDepth = 8192;  ///< what the stack bears
 inline constexpr int kMaxRepetitions = 1'000'000;
 inline constexpr int kMaxThreads = 1024;
 
+/// Which plane --heatmap paints.
+enum class HeatmapOf { kTests, kSearches, kStage };
+
+/// A pixel by its column and its row from the top, from 0 on.
+struct Pixel {
+    int x = 0;
+    int y = 0;
+};
+
 /// What the user typed, checked. Paths are as typed.
 struct Options {
     std::string file = "testfiles/trianglemesh";  ///< .x3d may be missing
@@ -40,6 +49,11 @@ struct Options {
     bool study = false;
     std::optional<std::string> study_json;
     bool show_octree = false;
+    std::optional<HeatmapOf> heatmap;
+    std::optional<double> heatmap_max;  ///< none: the largest value
+    std::optional<std::string> planes;  ///< what the files' names begin with
+    std::optional<std::string> octree;
+    std::optional<Pixel> pixel;
     bool compare = false;
     bool compare_brute_force = false;  ///< with compare: by brute force, too
     bool error = false;                ///< against the exact profile's picture
@@ -48,6 +62,9 @@ struct Options {
     bool quiet = false;
     bool help = false;
     bool version = false;
+
+    /// Whether each pixel's costs are to be recorded.
+    bool wants_planes() const { return heatmap || planes; }
 };
 
 /// A command line that cannot be obeyed: what() is one line that names flag and value.

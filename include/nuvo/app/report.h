@@ -10,6 +10,7 @@
 #include "nuvo/image/compare.h"
 #include "nuvo/octree/octree.h"
 #include "nuvo/render/fast.h"
+#include "nuvo/render/planes.h"
 #include "nuvo/render/render.h"
 #include "nuvo/scene/scene.h"
 
@@ -58,7 +59,9 @@ struct Pass {
     std::string name;  ///< "uniform", "nonuniform", "serial" or "brute force"
     std::optional<TreeFigures> tree;
     std::optional<TraceCounts> counts;
-    std::optional<TileFigures> tiles;
+    std::optional<TileFigures> tiles;   ///< tree and counts are then of walked_profile()
+    std::optional<PixelPlanes> planes;  ///< if they were asked for
+    std::optional<Octree> octree;       ///< if it is to be written
     std::vector<double> build_seconds;  ///< one a repetition, summed over the threads
     std::vector<double> trace_seconds;
     std::vector<double> build_wall_seconds;
@@ -74,11 +77,22 @@ struct Pair {
     image::Difference difference;
 };
 
+/// A heat map that was written.
+struct HeatmapFigures {
+    std::string file;
+    HeatmapOf of = HeatmapOf::kTests;
+    double largest = 0;    ///< value of the plane
+    double scale_max = 0;  ///< the value at the top of the scale
+};
+
 /// All that a run has to tell.
 struct Report {
     std::string file;
-    std::string picture;     ///< empty: none was written
-    std::string difference;  ///< the difference picture; empty: none was written
+    std::string picture;                    ///< empty: none was written
+    std::string difference;                 ///< the difference picture; empty: none was written
+    std::vector<std::string> planes;        ///< the files
+    std::optional<HeatmapFigures> heatmap;  ///< if one was written
+    std::string octree;                     ///< the octree's file; empty: none was written
     SceneCounts scene;
     double parse_seconds = 0;
     double write_seconds = 0;
