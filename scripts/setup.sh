@@ -18,7 +18,7 @@ nuvo_missing_packages() {
 
 # Installs those of "$@" that are missing. Says what it does; silent when there is nothing to do.
 nuvo_install() {
-    local missing=() package sudo=() log
+    local missing=() package sudo=()
     if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
         command -v cmake >/dev/null && command -v ninja >/dev/null && return 0
         echo "No apt-get here: please install the equivalents of: $*" >&2
@@ -34,19 +34,55 @@ nuvo_install() {
         fi
         sudo=(sudo)
     fi
-    echo "Installing ${missing[*]}" >&2
-    log=$(mktemp)
     # The lock may be held by the system's own upgrades for a while.
-    if "${sudo[@]}" apt-get -o DPkg::Lock::Timeout=300 -qq update >"$log" 2>&1 &&
-        "${sudo[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=300 -qq \
-            install -y --no-install-recommends "${missing[@]}" >>"$log" 2>&1; then
-        rm -f "$log"
-        return 0
-    fi
-    cat "$log" >&2
-    rm -f "$log"
+    local apt=("${sudo[@]}" env DEBIAN_FRONTEND=noninteractive
+        apt-get -o DPkg::Lock::Timeout=300 -o Dpkg::Use-Pty=0 -q)
+    echo "Installing ${missing[*]}" >&2
+    nuvo_watch_quietly "Reading the list of packages" "${apt[@]}" update &&
+        nuvo_watch_quietly "Installing, about a minute" \
+            "${apt[@]}" install -y --no-install-recommends "${missing[@]}" && return 0
     echo "Could not install ${missing[*]}" >&2
     return 1
+}
+
+# Shows where a command is from the lines it prints: steps of ninja and ctest, packages of apt.
+nuvo_show_progress() {
+    local title=$1 line where
+    while IFS= read -r line; do
+        if [[ $line =~ ^\[([0-9]+/[0-9]+)\] || $line =~ ^\ *([0-9]+/[0-9]+)\ Test ]]; then
+            where=${BASH_REMATCH[1]}
+        elif [[ $line =~ ^(Get:|Unpacking|Setting\ up) ]]; then
+            where=${line%% (*}
+        else
+            continue
+        fi
+        printf '\r%-78.78s' "$title: $where" >&2
+    done
+    printf '\r%-78s\r' "" >&2
+}
+
+# nuvo_watch TITLE LOG COMMAND...: says what it does, on a terminal how far it is; the command's
+# output goes to LOG.
+nuvo_watch() {
+    local title=$1 log=$2 status=0
+    shift 2
+    if [ -t 2 ]; then
+        (set -o pipefail; "$@" 2>&1 | tee "$log" | nuvo_show_progress "$title") || status=$?
+    else
+        echo "$title" >&2
+        "$@" >"$log" 2>&1 || status=$?
+    fi
+    return $status
+}
+
+# The same with a log that only a failure shows.
+nuvo_watch_quietly() {
+    local log status=0
+    log=$(mktemp)
+    nuvo_watch "$1" "$log" "${@:2}" || status=$?
+    [ $status -eq 0 ] || cat "$log" >&2
+    rm -f "$log"
+    return $status
 }
 
 # Runs "$@" with its output kept back; shows it all if the command fails.
@@ -59,9 +95,12 @@ nuvo_quietly() {
     return $status
 }
 
+# Seconds of one core that a step of a build takes: with all instruction sets, with one.
+nuvo_step_seconds() { case $1 in native) echo 1 ;; *) echo 2 ;; esac; }
+
 # Configures and builds a preset: nuvo_build PRESET [target]...
 nuvo_build() {
-    local preset=$1 target options=()
+    local preset=$1 target options=() run steps minutes plural=
     shift
     for target in "$@"; do options+=(--target "$target"); done
     (
@@ -71,7 +110,12 @@ nuvo_build() {
             ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$nuvo_root" "build/$preset/CMakeCache.txt"; then
             rm -rf "build/$preset"
         fi
-        nuvo_quietly cmake --preset "$preset" &&
-            nuvo_quietly cmake --build --preset "$preset" "${options[@]}"
+        nuvo_quietly cmake --preset "$preset" || exit 1
+        steps=$(ninja -C "build/$preset" -n "$@" 2>/dev/null | grep -c '^\[') || steps=0
+        run=(nuvo_quietly)
+        minutes=$((steps * $(nuvo_step_seconds "$preset") / $(nproc) / 60 + 1))
+        [ $minutes -eq 1 ] || plural=s
+        [ "$steps" -eq 0 ] || run=(nuvo_watch_quietly "Building, about $minutes minute$plural")
+        "${run[@]}" cmake --build --preset "$preset" "${options[@]}"
     )
 }

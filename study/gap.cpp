@@ -33,7 +33,7 @@ std::vector<AskedVoxel> asked_voxels(const Scene& scene, const Primitives& primi
 
 Gap gap_of(const Method& method, std::span<const AskedVoxel> voxels, Weight weight, Space space) {
     Gap gap;
-    std::uint64_t evaluations = 0;
+    Evaluations evaluations;
     std::size_t asked = 0;
     const MidpointStrategy strategy = method.make(&evaluations);
     for (const AskedVoxel& asked_voxel : voxels) {
@@ -60,7 +60,8 @@ Gap gap_of(const Method& method, std::span<const AskedVoxel> voxels, Weight weig
     }
     const std::size_t bounded = gap.voxels - gap.unbounded;
     if (bounded > 0) gap.mean /= static_cast<double>(bounded);
-    if (asked > 0) gap.evaluations = static_cast<double>(evaluations) / static_cast<double>(asked);
+    if (asked > 0)
+        gap.evaluations = static_cast<double>(evaluations.done) / static_cast<double>(asked);
     return gap;
 }
 

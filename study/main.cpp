@@ -22,7 +22,9 @@ constexpr std::string_view kUsage =
     "  --in-program           with the program's own additions to a method's planes\n"
     "  --costs=thesis         cut by the published costs and order\n"
     "  --step=S               price of a step in tests (6)\n"
+    "  --evaluations=N        of a search in one voxel (100)\n"
     "  --res=W,H --rounds=N --rays=N\n"
+    "                         --rounds=0: counts only; -1: nothing but --gap\n"
     "  --others               grid, kd-tree and BVH, too\n"
     "  --gap=N                distance from exact optima on up to N voxels\n"
     "  --list                 the methods\n";
@@ -81,6 +83,8 @@ void parse_argument(std::string_view argument, Request& request) {
         options.tree.thesis_costs = true;
     } else if (key == "--step") {
         options.tree.step = number<double>(value, argument);
+    } else if (key == "--evaluations") {
+        options.evaluations = number<int>(value, argument);
     } else if (key == "--rounds") {
         options.rounds = number<int>(value, argument);
     } else if (key == "--rays") {
@@ -183,7 +187,7 @@ void run(Request request) {
     json.member("pixels", request.options.resolution.width * request.options.resolution.height);
     json.key("rows");
     json.begin_array();
-    if (request.options.rounds > 0)
+    if (request.options.rounds >= 0)
         for (const Row& row : measure(scene, request.methods, request.others, request.options))
             write_row(json, row);
     json.end_array();

@@ -102,17 +102,17 @@ struct OwnedOctree {
 
 std::vector<Contestant> contestants(const Setting& setting, std::span<const Method* const> methods,
                                     bool others, const MeasureOptions& options,
-                                    std::vector<std::uint64_t>& evaluations) {
+                                    std::vector<Evaluations>& evaluations) {
     const Scene& scene = setting.scene;
     const Primitives& primitives = setting.primitives;
     const CalibratedCosts costs = costs_of(primitives, options.tree.step);
     std::vector<Contestant> all;
-    evaluations.assign(methods.size(), 0);
+    evaluations.assign(methods.size(), {options.evaluations});
     for (std::size_t i = 0; i < methods.size(); ++i)
         all.push_back(contestant<OwnedOctree>(
             setting, std::string(methods[i]->name), "octree",
             [&scene, &primitives, &evaluations, &options, method = methods[i], i] {
-                evaluations[i] = 0;
+                evaluations[i].done = 0;
                 return OwnedOctree(
                     build_tree(scene, primitives, *method, options.tree, &evaluations[i]));
             },
@@ -154,7 +154,7 @@ std::vector<Contestant> contestants(const Setting& setting, std::span<const Meth
 std::vector<Row> measure(const Scene& scene, std::span<const Method* const> methods, bool others,
                          const MeasureOptions& options) {
     const Setting setting(scene, options);
-    std::vector<std::uint64_t> evaluations;
+    std::vector<Evaluations> evaluations;
     std::vector<Contestant> all = contestants(setting, methods, others, options, evaluations);
     Work brute_work;
     const Image truth = setting.picture(BruteForce(setting.primitives.item_count()),
@@ -171,7 +171,7 @@ std::vector<Row> measure(const Scene& scene, std::span<const Method* const> meth
         c.row.random = c.random_work();
     }
     for (std::size_t i = 0; i < methods.size(); ++i)
-        all[i].row.evaluations = static_cast<double>(evaluations[i]);
+        all[i].row.evaluations = static_cast<double>(evaluations[i].done);
     // Interleaved, every other round backwards: a machine that slows down does so for all.
     for (int round = 0; round < options.rounds; ++round)
         for (std::size_t k = 0; k < all.size(); ++k) {

@@ -12,9 +12,10 @@ namespace nuvo::study {
 struct MeasureOptions {
     TreeOptions tree;
     Resolution resolution{240, 135};
-    Resolution brute_resolution{48, 27};  ///< pictures are compared with brute force's
-    std::size_t random_rays = 20'000;     ///< from points of the scene's box to others
-    int rounds = 3;                       ///< of builds and timed pictures, interleaved
+    Resolution brute_resolution{48, 27};   ///< pictures are compared with brute force's
+    std::size_t random_rays = 20'000;      ///< from points of the scene's box to others
+    int evaluations = Evaluations{}.most;  ///< of a search in one voxel
+    int rounds = 3;                        ///< of builds and timed pictures, interleaved
 };
 
 struct Row {

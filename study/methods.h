@@ -11,11 +11,17 @@
 /// Every way to choose a midpoint that the sources name, and those that look further.
 namespace nuvo::study {
 
-/// A way to cut. `make` gives the strategy; a search adds its evaluations to `*evaluations`.
+/// Of the objective by a search, in all voxels.
+struct Evaluations {
+    int most = 100;  ///< in one voxel
+    std::uint64_t done = 0;
+};
+
+/// A way to cut. `make` gives the strategy; a search adds to `*evaluations`, which may be null.
 struct Method {
     std::string_view name;
     std::string_view source;
-    MidpointStrategy (*make)(std::uint64_t* evaluations);
+    MidpointStrategy (*make)(Evaluations* evaluations);
     bool searches = false;  ///< by evaluations of eq. 19
     bool prunes = false;    ///< the finished tree is pruned bottom-up
 };
@@ -26,22 +32,22 @@ std::span<const Method> methods();
 const Method* find_method(std::string_view name);
 
 // One file each in methods/.
-MidpointStrategy spatial(std::uint64_t*);
-MidpointStrategy mean(std::uint64_t*);
-MidpointStrategy median(std::uint64_t*);
-MidpointStrategy published(std::uint64_t*);
-MidpointStrategy mlsl_lds_sbplx(std::uint64_t*);
-MidpointStrategy mlsl_random_sbplx(std::uint64_t*);
-MidpointStrategy mlsl_cobyla(std::uint64_t*);
-MidpointStrategy isres(std::uint64_t*);
-MidpointStrategy auglag_cobyla(std::uint64_t*);
-MidpointStrategy auglag_sbplx(std::uint64_t*);
-MidpointStrategy octree_r(std::uint64_t*);
-MidpointStrategy exact_eq19_medians(std::uint64_t*);
-MidpointStrategy exact_eq19_voxel(std::uint64_t*);
-MidpointStrategy sweep(std::uint64_t*);
-MidpointStrategy eight_child(std::uint64_t*);
-MidpointStrategy look_ahead(std::uint64_t*);
-MidpointStrategy hybrid(std::uint64_t*);
+MidpointStrategy spatial(Evaluations*);
+MidpointStrategy mean(Evaluations*);
+MidpointStrategy median(Evaluations*);
+MidpointStrategy published(Evaluations*);
+MidpointStrategy mlsl_lds_sbplx(Evaluations*);
+MidpointStrategy mlsl_random_sbplx(Evaluations*);
+MidpointStrategy mlsl_cobyla(Evaluations*);
+MidpointStrategy isres(Evaluations*);
+MidpointStrategy auglag_cobyla(Evaluations*);
+MidpointStrategy auglag_sbplx(Evaluations*);
+MidpointStrategy octree_r(Evaluations*);
+MidpointStrategy exact_eq19_medians(Evaluations*);
+MidpointStrategy exact_eq19_voxel(Evaluations*);
+MidpointStrategy sweep(Evaluations*);
+MidpointStrategy eight_child(Evaluations*);
+MidpointStrategy look_ahead(Evaluations*);
+MidpointStrategy hybrid(Evaluations*);
 
 }  // namespace nuvo::study

@@ -49,7 +49,7 @@ double margin_of(const Primitives& primitives, const Bounds3& beside) {
 }
 
 Octree build_tree(const Scene& scene, const Primitives& primitives, const Method& method,
-                  const TreeOptions& options, std::uint64_t* evaluations) {
+                  const TreeOptions& options, Evaluations* evaluations) {
     BuildOptions build;
     build.midpoint = method.make(evaluations);
     const CalibratedCosts costs = costs_of(primitives, options.step);

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cstdint>
-
 #include "methods.h"
 #include "nuvo/octree/build.h"
 #include "nuvo/render/render.h"
@@ -31,7 +29,7 @@ double margin_of(const Primitives& primitives, const Bounds3& beside = {});
 
 /// The tree of `method`. A search adds its evaluations to `*evaluations`, which may be null.
 Octree build_tree(const Scene& scene, const Primitives& primitives, const Method& method,
-                  const TreeOptions& options, std::uint64_t* evaluations = nullptr);
+                  const TreeOptions& options, Evaluations* evaluations = nullptr);
 
 /// The tree without those cuts that do not pay once all below them is cut. [bottom-up]
 Octree pruned(const Octree& octree, const CalibratedCosts& costs);

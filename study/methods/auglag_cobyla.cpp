@@ -3,7 +3,7 @@
 
 namespace nuvo::study {
 
-MidpointStrategy auglag_cobyla(std::uint64_t* evaluations) {
+MidpointStrategy auglag_cobyla(Evaluations* evaluations) {
     return nlopt_strategy(Search::kAuglagCobyla, evaluations);
 }
 

@@ -3,7 +3,7 @@
 
 namespace nuvo::study {
 
-MidpointStrategy auglag_sbplx(std::uint64_t* evaluations) {
+MidpointStrategy auglag_sbplx(Evaluations* evaluations) {
     return nlopt_strategy(Search::kAuglagSbplx, evaluations);
 }
 

@@ -76,7 +76,7 @@ double best_plane(const SplitQuery& query, const Point3& planes, int axis) {
 
 }  // namespace
 
-MidpointStrategy eight_child(std::uint64_t*) {
+MidpointStrategy eight_child(Evaluations*) {
     return [](const SplitQuery& query) -> std::optional<Point3> {
         std::optional<Point3> planes = sweep_midpoint(query);
         for (int round = 0; planes && round < kMostRounds; ++round) {

@@ -2,7 +2,7 @@
 
 namespace nuvo::study {
 
-MidpointStrategy exact_eq19_medians(std::uint64_t*) {
+MidpointStrategy exact_eq19_medians(Evaluations*) {
     return [](const SplitQuery& query) {
         return exact_midpoint(query, Weight::kShare, Space::kMedians);
     };

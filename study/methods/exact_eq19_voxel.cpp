@@ -2,7 +2,7 @@
 
 namespace nuvo::study {
 
-MidpointStrategy exact_eq19_voxel(std::uint64_t*) {
+MidpointStrategy exact_eq19_voxel(Evaluations*) {
     return [](const SplitQuery& query) {
         return exact_midpoint(query, Weight::kShare, Space::kVoxel);
     };

@@ -10,7 +10,7 @@ constexpr double kPays = 1.05;
 
 }  // namespace
 
-MidpointStrategy hybrid(std::uint64_t*) {
+MidpointStrategy hybrid(Evaluations*) {
     return [](const SplitQuery& query) -> std::optional<Point3> {
         Trial trial(query);
         const std::optional<Point3> center = spatial_midpoint(query);

@@ -3,7 +3,7 @@
 
 namespace nuvo::study {
 
-MidpointStrategy isres(std::uint64_t* evaluations) {
+MidpointStrategy isres(Evaluations* evaluations) {
     return nlopt_strategy(Search::kIsres, evaluations);
 }
 

@@ -23,7 +23,7 @@ double best_saving(Trial& trial, const Voxel& voxel, std::span<const ItemId> ite
 
 }  // namespace
 
-MidpointStrategy look_ahead(std::uint64_t*) {
+MidpointStrategy look_ahead(Evaluations*) {
     return [](const SplitQuery& query) -> std::optional<Point3> {
         std::optional<Point3> best = spatial_midpoint(query);
         if (query.boxes.size() > kMostItems) return sweep_midpoint(query);

@@ -2,7 +2,7 @@
 
 namespace nuvo::study {
 
-MidpointStrategy mean(std::uint64_t*) {
+MidpointStrategy mean(Evaluations*) {
     return [](const SplitQuery& query) -> std::optional<Point3> {
         if (query.boxes.empty()) return std::nullopt;
         Point3 sum;

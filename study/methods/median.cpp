@@ -2,7 +2,7 @@
 
 namespace nuvo::study {
 
-MidpointStrategy median(std::uint64_t*) {
+MidpointStrategy median(Evaluations*) {
     return [](const SplitQuery& query) -> std::optional<Point3> {
         if (query.boxes.empty()) return std::nullopt;
         return Point3{object_median(query.boxes, 0), object_median(query.boxes, 1),

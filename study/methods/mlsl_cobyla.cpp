@@ -3,7 +3,7 @@
 
 namespace nuvo::study {
 
-MidpointStrategy mlsl_cobyla(std::uint64_t* evaluations) {
+MidpointStrategy mlsl_cobyla(Evaluations* evaluations) {
     return nlopt_strategy(Search::kMlslCobyla, evaluations);
 }
 

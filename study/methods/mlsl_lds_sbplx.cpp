@@ -3,7 +3,7 @@
 
 namespace nuvo::study {
 
-MidpointStrategy mlsl_lds_sbplx(std::uint64_t* evaluations) {
+MidpointStrategy mlsl_lds_sbplx(Evaluations* evaluations) {
     return nlopt_strategy(Search::kMlslLdsSbplx, evaluations);
 }
 

@@ -46,7 +46,7 @@ bool is_local_cobyla(Search search) {
 }  // namespace
 
 std::optional<Point3> nlopt_midpoint(const SplitQuery& query, Search search,
-                                     std::uint64_t* evaluations, int max_evaluations) {
+                                     Evaluations* evaluations) {
     std::vector<double> lower(3), upper(3);
     const Point3 center = query.voxel.bounds.center();
     for (int axis = 0; axis < 3; ++axis) {
@@ -60,8 +60,9 @@ std::optional<Point3> nlopt_midpoint(const SplitQuery& query, Search search,
     Counted counted{score};
     nlopt::srand(kSeed);
     nlopt::opt opt = global_search(search);
-    const auto budget = static_cast<int>(std::min(static_cast<std::size_t>(max_evaluations),
-                                                  kEvaluationsPerObject * query.boxes.size()));
+    const auto budget = static_cast<int>(
+        std::min(static_cast<std::size_t>(evaluations ? evaluations->most : Evaluations{}.most),
+                 kEvaluationsPerObject * query.boxes.size()));
     if (search != Search::kIsres)
         opt.set_local_optimizer(
             nlopt::opt(is_local_cobyla(search) ? nlopt::LN_COBYLA : nlopt::LN_SBPLX, 3));
@@ -76,11 +77,11 @@ std::optional<Point3> nlopt_midpoint(const SplitQuery& query, Search search,
     } catch (const std::runtime_error&) {  // the bounds are too near to each other for its steps
     } catch (const std::invalid_argument&) {
     }
-    if (evaluations) *evaluations += counted.calls;
+    if (evaluations) evaluations->done += counted.calls;
     return Point3{best[0], best[1], best[2]};
 }
 
-MidpointStrategy nlopt_strategy(Search search, std::uint64_t* evaluations) {
+MidpointStrategy nlopt_strategy(Search search, Evaluations* evaluations) {
     return [=](const SplitQuery& query) { return nlopt_midpoint(query, search, evaluations); };
 }
 

@@ -1,21 +1,20 @@
 #pragma once
 
-#include <cstdint>
 #include <optional>
 
-#include "nuvo/octree/midpoint.h"
+#include "methods.h"
 
 namespace nuvo::study {
 
 /// NLopt's algorithms that the thesis names.
 enum class Search { kMlslLdsSbplx, kMlslSbplx, kMlslCobyla, kIsres, kAuglagCobyla, kAuglagSbplx };
 
-/// Minimises eq. 19 between the medians from the centre: 3 evaluations an object and
-/// `max_evaluations` in all. None where a median lies on or outside a face. Deterministic.
+/// Minimises eq. 19 between the medians from the centre: at most 3 evaluations an object. None
+/// where a median lies on or outside a face. Deterministic.
 std::optional<Point3> nlopt_midpoint(const SplitQuery& query, Search search,
-                                     std::uint64_t* evaluations, int max_evaluations = 100);
+                                     Evaluations* evaluations);
 
 /// The strategy.
-MidpointStrategy nlopt_strategy(Search search, std::uint64_t* evaluations);
+MidpointStrategy nlopt_strategy(Search search, Evaluations* evaluations);
 
 }  // namespace nuvo::study

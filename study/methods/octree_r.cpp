@@ -2,7 +2,7 @@
 
 namespace nuvo::study {
 
-MidpointStrategy octree_r(std::uint64_t*) {
+MidpointStrategy octree_r(Evaluations*) {
     return [](const SplitQuery& query) {
         return exact_midpoint(query, Weight::kArea, Space::kMedians);
     };

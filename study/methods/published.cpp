@@ -2,6 +2,6 @@
 
 namespace nuvo::study {
 
-MidpointStrategy published(std::uint64_t*) { return published_midpoint; }
+MidpointStrategy published(Evaluations*) { return published_midpoint; }
 
 }  // namespace nuvo::study

@@ -2,6 +2,6 @@
 
 namespace nuvo::study {
 
-MidpointStrategy spatial(std::uint64_t*) { return spatial_midpoint; }
+MidpointStrategy spatial(Evaluations*) { return spatial_midpoint; }
 
 }  // namespace nuvo::study

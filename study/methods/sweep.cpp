@@ -2,6 +2,6 @@
 
 namespace nuvo::study {
 
-MidpointStrategy sweep(std::uint64_t*) { return sweep_midpoint; }
+MidpointStrategy sweep(Evaluations*) { return sweep_midpoint; }
 
 }  // namespace nuvo::study

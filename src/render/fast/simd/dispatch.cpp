@@ -5,8 +5,9 @@
 
 namespace nuvo {
 
-// What the compiler may use in Highway's targets of these names. Highway's own answer would be in
-// its shared library, which measures the processor's clocks when it is loaded: 2 ms of every run.
+// What there are kernels for (a build for one machine has one set) and the compiler may use in
+// Highway's targets of these names. Highway's own answer would be in its shared library, which
+// measures the processor's clocks when it is loaded: 2 ms of every run.
 std::vector<InstructionSet> supported_instruction_sets() {
     std::vector<InstructionSet> sets;
 #if HWY_ARCH_X86
@@ -17,11 +18,13 @@ std::vector<InstructionSet> supported_instruction_sets() {
     const bool avx512 = avx2 && __builtin_cpu_supports("avx512f") &&
                         __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq") &&
                         __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512cd");
-    if (avx512) sets.push_back(InstructionSet::kAvx512);
-    if (avx2) sets.push_back(InstructionSet::kAvx2);
-    if (sse4) sets.push_back(InstructionSet::kSse4);
+    if (avx512 && (HWY_TARGETS & HWY_AVX3) != 0) sets.push_back(InstructionSet::kAvx512);
+    if (avx2 && (HWY_TARGETS & HWY_AVX2) != 0) sets.push_back(InstructionSet::kAvx2);
+    if (sse4 && (HWY_TARGETS & HWY_SSE4) != 0) sets.push_back(InstructionSet::kSse4);
 #endif
-    sets.push_back(InstructionSet::kSse2);
+    constexpr bool kIsPortable =
+        (HWY_STATIC_TARGET & (HWY_AVX3 | HWY_AVX2 | HWY_SSE4 | HWY_SSSE3)) == 0;
+    if (sets.empty() || kIsPortable) sets.push_back(InstructionSet::kSse2);
     return sets;
 }
 
