@@ -16,7 +16,8 @@ Pass run_pass(const Scene& scene, const Options& options, const Profile& profile
               Image& picture);
 
 /// The profile whose walk --planes, --heatmap, --octree and --pixel look at: the one given, or for
-/// the tile tracer the serial one of the same picture, the exact profile, on an octree of the same type.
+/// the tile tracer the serial one of the same picture, the exact profile, on an octree of the same
+/// type.
 Profile walked_profile(const Scene& scene, const Options& options);
 
 /// Renders with every primitive against every ray.
