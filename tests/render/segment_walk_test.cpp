@@ -99,5 +99,24 @@ TEST(SegmentWalk, SmallThingsOnVeryWideFloorsCastTheirShadows) {
         expect_identical(cluster_on_a_floor(random, width, 1000), {{32, 24}});
 }
 
+// Of 700 triangles that differ in the last bits of their corners no cut parts any.
+TEST(SegmentWalk, ManyNearlyCoincidentTrianglesKeepTheirColorsAndShadows) {
+    constexpr unsigned kSeed = 23;
+    SCOPED_TRACE("seed " + std::to_string(kSeed));
+    std::mt19937_64 random(kSeed);
+    Scene scene = cluster_on_a_floor(random, 4, 0);
+    const auto nearly = [&](double x) { return x * (1 + uniform(random, -0x1p-51, 0x1p-51)); };
+    for (int i = 0; i < 700; ++i) {
+        TriangleMesh mesh;
+        for (const Point3& p :
+             {Point3{-1.1, -1.03, 0.1}, Point3{1.2, -0.97, -0.2}, Point3{0.13, 1.07, 0.3}})
+            mesh.positions.push_back({nearly(p.x), nearly(p.y), nearly(p.z)});
+        mesh.triangles = {{0, 1, 2}};
+        scene.objects.push_back({mesh, 0, 0});
+        scene.objects.back().solid = false;
+    }
+    expect_identical(scene, {{24, 18}});
+}
+
 }  // namespace
 }  // namespace nuvo::testing

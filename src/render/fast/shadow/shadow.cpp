@@ -7,7 +7,6 @@
 #define HWY_TARGET_INCLUDE "fast/shadow/shadow.cpp"
 #include <hwy/foreach_target.h>
 
-#include "fast/shadow/segment_box.h"
 #include "fast/shadow/segment_walk.h"
 #include "fast/shadow/shadow_beam.h"
 #include "fast/shadow/shadow_block.h"
@@ -78,10 +77,11 @@ class ShadowTracer {
             tables.scene().octree(), beam_to_light(context_.table.light, low, high, slack),
             [](float) { return false; },
             [&](const std::uint32_t* items, std::uint32_t count, float) HWY_ATTR {
-                for (std::uint32_t i = 0; i < count; ++i)
-                    if (tables.hides(light_, items[i]) && !mailbox.seen(items[i]))
-                        block.test(context_, items[i], lanes);
-                tests += count;
+                for (std::uint32_t i = 0; i < count && !too_many(); ++i) {
+                    if (!tables.hides(light_, items[i]) || mailbox.seen(items[i])) continue;
+                    ++tests;
+                    block.test(context_, items[i], lanes);
+                }
                 return (block.waiting() & lanes) == 0 || too_many();
             });
         if (!too_many()) return;
@@ -109,8 +109,11 @@ class ShadowTracer {
         bool blocked = fallback_.blocks(ray, lit);
         mailbox.seen(lit);
         const auto leaf = [&](const std::uint32_t* items, std::uint32_t count) {
+            if (count >= ExactFallback::kLargeLeaf)
+                return fallback_.blocks_any(ray, {items, count});
             return std::any_of(items, items + count, [&](Slot item) {
-                return tables.hides(light_, item) && !mailbox.seen(item) && blocks(ray, item);
+                return tables.hides(light_, item) && !mailbox.seen(item) &&
+                       fallback_.blocks(ray, item);
             });
         };
         if (!blocked)
@@ -131,15 +134,6 @@ class ShadowTracer {
         open = std::move(sorted);
     }
 
-    // A box is cheaper than exactness; in wide scenes floats leave most of the small things open.
-    template <typename Shadow>
-    bool blocks(const Shadow& ray, Slot item) const {
-        const FastScene& scene = context_.job.tables.scene();
-        return (item >= scene.triangle_end() ||
-                may_meet(ray.ray, ray.end, scene.primitives().item_boxes[scene.id(item)])) &&
-               fallback_.blocks(ray, item);
-    }
-
     // Asks the fallback about the points that nothing has surely blocked, point by point, so that
     // each point's shadow ray is made once.
     void settle() {
@@ -156,7 +150,8 @@ class ShadowTracer {
                 walk_alone(lane);
             } else if (waiting) {
                 const auto ray = shadow_ray(lane);
-                if (std::any_of(at, end, [&](const auto& o) { return blocks(ray, o.item); }))
+                if (std::any_of(at, end,
+                                [&](const auto& o) { return fallback_.blocks(ray, o.item); }))
                     block_lane(lane);
             }
             at = end;

@@ -2,9 +2,14 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
+#include <unordered_map>
+#include <vector>
 
+#include "crowd.h"
 #include "exact_kernel.h"
 #include "fast/scene/fast_scene.h"
+#include "fast/tile/segment_box.h"
 #include "fast/tile/tile.h"
 #include "surface_color.h"
 
@@ -37,11 +42,14 @@ class ExactFallback {
 
     /// The shadow ray to a light from the point that pixel (x, y) shows on `lit`.
     Kernel::Shadow shadow_ray(int x, int y, Slot lit, std::size_t light) const;
-    /// Whether `occluder` stands on that ray.
+    /// Whether `occluder` stands on that ray. Most that floats leave open does not even come near,
+    /// which a box tells at less cost.
     bool blocks(const Kernel::Shadow& ray, Slot occluder) const {
-        const PrimitiveId id = scene_.id(occluder);
-        return kernel_.blocks(ray, {id, id + 1});
+        return blocks(ray, scene_.id(occluder), occluder < scene_.triangle_end());
     }
+    /// Whether any item of a leaf of the octree does. Keeps what large leaves tell. [crowd.h]
+    bool blocks_any(const Kernel::Shadow& ray, std::span<const Slot> leaf) const;
+    static constexpr std::size_t kLargeLeaf = 512;
 
     /// The pixel's color, given what it shows (kNoSlot: the background) and which lights are not
     /// blocked (bit i of the predicate; lights that do not cast shadows are asked for, too).
@@ -56,9 +64,30 @@ class ExactFallback {
     }
 
   private:
+    struct LargeLeaf {
+        LargeLeaf(const FastScene& scene, const Kernel& kernel, std::span<const Slot> slots)
+            : ids(ids_of(scene, slots)), crowd(kernel, ids) {}
+        static std::vector<PrimitiveId> ids_of(const FastScene& scene,
+                                               std::span<const Slot> slots) {
+            std::vector<PrimitiveId> out;
+            out.reserve(slots.size());
+            for (const Slot slot : slots) out.push_back(scene.id(slot));
+            return out;
+        }
+
+        std::vector<PrimitiveId> ids;
+        Crowd<Kernel> crowd;
+    };
+
+    bool blocks(const Kernel::Shadow& ray, PrimitiveId id, bool triangle) const {
+        return (!triangle || may_meet(ray.ray, ray.end, scene_.primitives().item_boxes[id])) &&
+               kernel_.blocks(ray, {id, id + 1});
+    }
+
     const FastScene& scene_;
     const CameraRays& camera_;
     Kernel kernel_;
+    mutable std::unordered_map<const Slot*, LargeLeaf> large_leaves_;  // by their first items
 };
 
 }  // namespace nuvo
