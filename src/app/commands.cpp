@@ -63,23 +63,27 @@ Profile exact_like(const Profile& profile) {
     return exact;
 }
 
+// Of a picture of which nothing but the pixels is told.
+Options plain(Options options) {
+    options.counters = false;
+    options.json.reset();
+    options.heatmap.reset();
+    options.planes.reset();
+    options.octree.reset();
+    return options;
+}
+
 // One more picture, of which nothing but the pixels is told.
 image::Difference error_of(const Image& picture, const Scene& scene, const Options& options) {
-    Options plain = options;
-    plain.counters = false;
-    plain.json.reset();
-    plain.heatmap.reset();
-    plain.planes.reset();
-    plain.octree.reset();
     Image exact;
-    run_pass(scene, plain, exact_like(options.profile), 1, exact);
+    run_pass(scene, plain(options), exact_like(options.profile), 1, exact);
     return image::compare(picture, exact);
 }
 
 // From a picture of a 16th of the width and height.
 std::string brute_force_forecast(const Scene& scene, const Options& options) {
     constexpr int kShrink = 16;
-    Options small = options;
+    Options small = plain(options);
     small.resolution = {std::max(1, options.resolution.width / kShrink),
                         std::max(1, options.resolution.height / kShrink)};
     Image trial;
@@ -94,6 +98,15 @@ std::string brute_force_forecast(const Scene& scene, const Options& options) {
                   "brute force", counts.triangles + counts.spheres, seconds);
 }
 
+// The passes of -compare, in their order.
+std::vector<std::string> compared_names(const Options& options) {
+    std::vector<std::string> names;
+    for (const auto& type : kOctreeTypes) names.emplace_back(type.name);
+    if (options.profile.tracer == TracerChoice::kTiles) names.emplace_back("serial");
+    if (options.compare_brute_force) names.emplace_back("brute force");
+    return names;
+}
+
 bool is_further_apart(const image::Difference& a, const image::Difference& b) {
     return std::tie(a.max_difference, a.differing_pixels) >
            std::tie(b.max_difference, b.differing_pixels);
@@ -104,7 +117,7 @@ bool is_further_apart(const image::Difference& a, const image::Difference& b) {
 ExitCode render_command(const Options& options) {
     const LoadedScene loaded = load(options);
     const fs::path picture_path = chosen_picture(options, loaded);
-    std::vector<fs::path> outputs = look_files(options, picture_path);
+    std::vector<fs::path> outputs = look_files(options, picture_path, "");
     outputs.push_back(picture_path);
     check_outputs({loaded.path}, with_json(outputs, options));
     if (options.show_octree) show_octree(loaded.scene, options.profile);
@@ -120,7 +133,7 @@ ExitCode render_command(const Options& options) {
     image::write_picture(picture_path, picture);
     report.write_seconds = write.seconds();
     report.picture = picture_path.string();
-    write_looks(options, picture_path, report.passes.front(), report);
+    write_looks(options, picture_path, report.file, report.passes);
     write_json(options, report);
     print_report(options, report);
     return kDone;
@@ -130,7 +143,11 @@ ExitCode compare_command(const Options& options) {
     const LoadedScene loaded = load(options);
     const fs::path picture_path = chosen_picture(options, loaded);
     const fs::path difference_path = difference_beside(picture_path);
-    check_outputs({loaded.path}, with_json({picture_path, difference_path}, options));
+    std::vector<fs::path> outputs{picture_path, difference_path};
+    for (const std::string& name : compared_names(options))
+        for (const fs::path& file : look_files(options, picture_path, name))
+            outputs.push_back(file);
+    check_outputs({loaded.path}, with_json(outputs, options));
 
     Report report = begin_report(loaded);
     std::vector<Image> pictures;
@@ -169,6 +186,7 @@ ExitCode compare_command(const Options& options) {
     report.write_seconds = write.seconds();
     report.picture = picture_path.string();
     report.difference = difference_path.string();
+    write_looks(options, picture_path, report.file, report.passes);
     write_json(options, report);
     print_report(options, report);
     return furthest.equal() ? kDone : kPicturesDiffer;

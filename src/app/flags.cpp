@@ -312,7 +312,8 @@ std::vector<Flag> look_flags() {
     return {
         {"heatmap", "--heatmap", joined_names(kHeatmaps), "",
          "paint what each pixel cost, beside the picture as NAME-tests.png: intersection tests, "
-         "voxel searches, or the stage of arithmetic that its tests needed",
+         "voxel searches, or the stage of arithmetic that its tests needed; with -compare one for "
+         "each octree, on one scale",
          [](Options& o, const std::string& v) { o.heatmap = parse_choice(kHeatmaps, v); }},
         {"heatmap-max", "--heatmap-max", "N", "",
          "the value at the top of the heat map's scale, so that several share one; else its own "

@@ -34,8 +34,33 @@ void for_each_plane(const PixelPlanes& planes, Use&& use) {
         std::span(reinterpret_cast<const std::uint8_t*>(planes.stage.data()), planes.stage.size()));
 }
 
-fs::path plane_file(const std::string& prefix, const char* name) {
-    return prefix + "-" + name + ".npy";
+/// "", or "-NAME" of a pass.
+std::string suffix(const std::string& pass) {
+    std::string text = pass.empty() ? "" : "-" + pass;
+    std::replace(text.begin(), text.end(), ' ', '-');
+    return text;
+}
+
+fs::path plane_file(const Options& options, const std::string& pass, const char* plane) {
+    return *options.planes + suffix(pass) + "-" + plane + ".npy";
+}
+
+/// Beside the picture; a picture that is no regular file (a device) takes it, too.
+fs::path heatmap_file(const Options& options, const fs::path& picture, const std::string& pass) {
+    std::error_code ignored;
+    if (fs::exists(picture, ignored) && !is_regular(picture)) return picture;
+    fs::path name = picture.stem();
+    name += suffix(pass) + "-" + std::string(name_of(kHeatmaps, *options.heatmap)) + ".png";
+    return picture.parent_path() / name;
+}
+
+fs::path octree_file(const Options& options, const std::string& pass) {
+    const fs::path given = *options.octree;
+    if (pass.empty()) return given;
+    fs::path name = given.stem();
+    name += suffix(pass);
+    name += given.extension();
+    return given.parent_path() / name;
 }
 
 std::vector<double> plane_of(const PixelPlanes& planes, HeatmapOf of) {
@@ -46,69 +71,73 @@ std::vector<double> plane_of(const PixelPlanes& planes, HeatmapOf of) {
     return stages;
 }
 
-HeatmapFigures write_heatmap(const Options& options, const fs::path& file,
-                             const PixelPlanes& planes) {
-    const HeatmapOf of = *options.heatmap;
+double largest(const PixelPlanes& planes, HeatmapOf of) {
     const std::vector<double> values = plane_of(planes, of);
-    HeatmapFigures figures;
-    figures.file = file.string();
-    figures.of = of;
-    figures.largest = *std::max_element(values.begin(), values.end());
+    return *std::max_element(values.begin(), values.end());
+}
+
+image::HeatScale scale_for(const Options& options, const std::vector<Pass>& passes) {
+    const HeatmapOf of = *options.heatmap;
     image::HeatScale scale;
+    scale.title = name_of(kHeatmaps, of);
     if (of == HeatmapOf::kStage) {
+        scale.title += " of arithmetic";
         for (const Stage stage : {Stage::kCheap, Stage::kWider, Stage::kExact})
             scale.names.emplace_back(stage_word(Precision::kExact, stage));
         scale.max = static_cast<double>(Stage::kExact);
-    } else {
-        // A picture without any cost has a scale, too.
-        scale.max = options.heatmap_max.value_or(std::max(1.0, figures.largest));
+        return scale;
     }
-    scale.title = std::string(name_of(kHeatmaps, of)) +
-                  (of == HeatmapOf::kStage ? " of arithmetic" : " a pixel");
-    figures.scale_max = scale.max;
-    image::write_png(file, image::heat_map(values, options.resolution.width, scale));
-    return figures;
+    scale.title += " a pixel";
+    scale.max = 1;  // a picture without any cost has a scale, too
+    for (const Pass& pass : passes) scale.max = std::max(scale.max, largest(*pass.planes, of));
+    scale.max = options.heatmap_max.value_or(scale.max);
+    return scale;
+}
+
+void write_planes(const Options& options, const std::string& name, Pass& pass) {
+    const std::array shape{static_cast<std::size_t>(options.resolution.height),
+                           static_cast<std::size_t>(options.resolution.width)};
+    for_each_plane(*pass.planes, [&](const char* plane, const auto& values) {
+        using Value = std::remove_cv_t<typename std::decay_t<decltype(values)>::value_type>;
+        const fs::path file = plane_file(options, name, plane);
+        image::write_npy<Value>(file, values, shape);
+        pass.files.planes.push_back(file.string());
+    });
 }
 
 }  // namespace
 
-fs::path heatmap_beside(const fs::path& picture, HeatmapOf of) {
-    std::error_code ignored;
-    if (fs::exists(picture, ignored) && !is_regular(picture)) return picture;
-    fs::path name = picture.stem();
-    name += "-" + std::string(name_of(kHeatmaps, of)) + ".png";
-    return picture.parent_path() / name;
-}
-
-std::vector<fs::path> look_files(const Options& options, const fs::path& picture) {
+std::vector<fs::path> look_files(const Options& options, const fs::path& picture,
+                                 const std::string& pass) {
     std::vector<fs::path> files;
-    if (options.heatmap) files.push_back(heatmap_beside(picture, *options.heatmap));
+    if (options.heatmap) files.push_back(heatmap_file(options, picture, pass));
     if (options.planes)
-        for_each_plane({}, [&](const char* name, const auto&) {
-            files.push_back(plane_file(*options.planes, name));
+        for_each_plane({}, [&](const char* plane, const auto&) {
+            files.push_back(plane_file(options, pass, plane));
         });
-    if (options.octree) files.emplace_back(*options.octree);
+    if (options.octree) files.push_back(octree_file(options, pass));
     return files;
 }
 
-void write_looks(const Options& options, const fs::path& picture, const Pass& pass,
-                 Report& report) {
-    if (options.heatmap)
-        report.heatmap =
-            write_heatmap(options, heatmap_beside(picture, *options.heatmap), *pass.planes);
-    if (options.planes) {
-        const std::array shape{static_cast<std::size_t>(options.resolution.height),
-                               static_cast<std::size_t>(options.resolution.width)};
-        for_each_plane(*pass.planes, [&](const char* name, const auto& values) {
-            const fs::path file = plane_file(*options.planes, name);
-            image::write_npy<std::remove_cv_t<typename std::decay_t<decltype(values)>::value_type>>(
-                file, values, shape);
-            report.planes.push_back(file.string());
-        });
-    }
-    if (options.octree) {
-        write_octree(*options.octree, *octree_format(*options.octree), *pass.octree, report.file);
-        report.octree = *options.octree;
+void write_looks(const Options& options, const fs::path& picture, const std::string& scene,
+                 std::vector<Pass>& passes) {
+    image::HeatScale scale;
+    if (options.heatmap) scale = scale_for(options, passes);
+    for (Pass& pass : passes) {
+        const std::string name = passes.size() == 1 ? "" : pass.name;
+        if (options.heatmap) {
+            const fs::path file = heatmap_file(options, picture, name);
+            image::write_png(file, image::heat_map(plane_of(*pass.planes, *options.heatmap),
+                                                   options.resolution.width, scale));
+            pass.files.heatmap = {file.string(), *options.heatmap,
+                                  largest(*pass.planes, *options.heatmap), scale.max};
+        }
+        if (options.planes) write_planes(options, name, pass);
+        if (pass.octree) {  // brute force has none
+            const fs::path file = octree_file(options, name);
+            write_octree(file, *octree_format(file), *pass.octree, scene);
+            pass.files.octree = file.string();
+        }
     }
 }
 

@@ -138,7 +138,7 @@ void check_tile_tracer(const Options& options, const std::map<std::string, std::
                          "(add --tracer=serial)");
 }
 
-/// Planes, heat maps and octrees belong to one picture; a pixel is told of without one.
+/// Planes, heat maps and octrees belong to pictures; a pixel is told of without one.
 void check_looking(const Options& options, const std::map<std::string, std::string>& given) {
     const auto is_given = [&given](const char* name) { return given.count(name) != 0; };
     const auto refuse = [&](const char* flag, std::initializer_list<const char*> others) {
@@ -148,8 +148,8 @@ void check_looking(const Options& options, const std::map<std::string, std::stri
                                  " cannot be combined");
     };
     for (const char* flag : {"heatmap", "planes", "octree", "pixel"})
-        refuse(flag, {"compare", "rays", "study", "describe"});
-    refuse("pixel", {"heatmap", "planes", "error", "showoctree", "out", "counters"});
+        refuse(flag, {"rays", "study", "describe"});
+    refuse("pixel", {"compare", "heatmap", "planes", "error", "showoctree", "out", "counters"});
     if (options.heatmap_max && !options.heatmap)
         throw UsageError("--heatmap-max=" + given.at("heatmap-max") +
                          ": there is no heat map (add --heatmap=tests)");

@@ -177,6 +177,11 @@ Pass run_brute_force(const Scene& scene, const Options& options, Image& picture)
     picture = render_brute_force(scene, primitives, options.profile, options.resolution);
     note(pass.trace_seconds, pass.trace_wall_seconds, trace);
     pass.process = process.elapsed();
+    if (options.wants_planes()) {
+        pass.planes =
+            record_planes(scene, primitives, nullptr, options.profile, options.resolution);
+        pass.counts = pass.planes->counts;
+    }
     return pass;
 }
 

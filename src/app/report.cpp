@@ -105,6 +105,19 @@ std::string octree_lines(const Pass& pass) {
     return lines;
 }
 
+std::string file_lines(const LookFiles& files) {
+    std::string lines;
+    if (files.heatmap)
+        lines += format("%-10s %s: %s 0 to %g, the scale to %g\n", "heat map",
+                        files.heatmap->file.c_str(),
+                        std::string(name_of(kHeatmaps, files.heatmap->of)).c_str(),
+                        files.heatmap->largest, files.heatmap->scale_max);
+    for (const std::string& plane : files.planes)
+        lines += format("%-10s %s\n", "plane", plane.c_str());
+    if (!files.octree.empty()) lines += format("%-10s %s\n", "voxels", files.octree.c_str());
+    return lines;
+}
+
 std::string average_line(const Pass& pass) {
     const auto repetitions =
         static_cast<double>(std::max<std::size_t>(1, pass.trace_seconds.size()));
@@ -238,14 +251,7 @@ std::string report_text(const Options& options, const Report& report) {
         text += format("%-10s %zu, %zu of them hit\n", "rays", *report.rays, *report.hits);
     if (!report.picture.empty())
         text += format("%-10s %s\n", report.rays ? "answers" : "picture", report.picture.c_str());
-    if (report.heatmap)
-        text += format("%-10s %s: %s 0 to %g, the scale to %g\n", "heat map",
-                       report.heatmap->file.c_str(),
-                       std::string(name_of(kHeatmaps, report.heatmap->of)).c_str(),
-                       report.heatmap->largest, report.heatmap->scale_max);
-    for (const std::string& plane : report.planes)
-        text += format("%-10s %s\n", "plane", plane.c_str());
-    if (!report.octree.empty()) text += format("%-10s %s\n", "voxels", report.octree.c_str());
+    for (const Pass& pass : report.passes) text += file_lines(pass.files);
     if (!report.difference.empty())
         text += format("%-10s %s\n", "difference", report.difference.c_str());
     return text;

@@ -77,10 +77,32 @@ void write_tiles(JsonWriter& json, const TileFigures& tiles, bool has_serial_cou
     json.end_object();
 }
 
+/// What was written for others to look at.
+void write_look_files(JsonWriter& json, const LookFiles& files) {
+    if (files.heatmap) {
+        json.key("heatmap");
+        json.begin_object();
+        json.member("file", files.heatmap->file);
+        json.member("of", name_of(kHeatmaps, files.heatmap->of));
+        json.member("largest", files.heatmap->largest);
+        json.member("scale_max", files.heatmap->scale_max);
+        json.end_object();
+    }
+    if (!files.planes.empty()) {
+        json.key("planes");
+        json.begin_array();
+        for (const std::string& plane : files.planes) json.value(plane);
+        json.end_array();
+    }
+    if (!files.octree.empty()) json.member("octree_file", files.octree);
+}
+
 void write_pass(JsonWriter& json, const Pass& pass) {
     if (pass.tiles) write_tiles(json, *pass.tiles, pass.counts.has_value());
+    if (pass.tiles && pass.tree) json.member("walk", "serial exact");  // its tree and counts
     if (pass.tree) write_tree(json, *pass.tree);
     if (pass.counts) write_counts(json, *pass.counts);
+    write_look_files(json, pass.files);
     json.member("build_seconds", pass.build_seconds);
     json.member("trace_seconds", pass.trace_seconds);
     json.member("build_wall_seconds", pass.build_wall_seconds);
@@ -125,28 +147,6 @@ void write_pairs(JsonWriter& json, const std::vector<Pair>& pairs) {
     json.end_array();
 }
 
-/// What was written for others to look at.
-void write_looks(JsonWriter& json, const Options& options, const Report& report) {
-    if (report.heatmap) {
-        json.key("heatmap");
-        json.begin_object();
-        json.member("file", report.heatmap->file);
-        json.member("of", name_of(kHeatmaps, report.heatmap->of));
-        json.member("largest", report.heatmap->largest);
-        json.member("scale_max", report.heatmap->scale_max);
-        json.end_object();
-    }
-    if (!report.planes.empty()) {
-        json.key("planes");
-        json.begin_array();
-        for (const std::string& plane : report.planes) json.value(plane);
-        json.end_array();
-    }
-    if (!report.octree.empty()) json.member("octree_file", report.octree);
-    if (options.profile.tracer == TracerChoice::kTiles && report.passes.front().tree)
-        json.member("walk", "serial exact");  // whose tree and counts these are
-}
-
 }  // namespace
 
 std::string report_json(const Options& options, const Report& report) {
@@ -156,7 +156,6 @@ std::string report_json(const Options& options, const Report& report) {
     json.member("file", report.file);
     if (!report.picture.empty()) json.member(report.rays ? "answers" : "picture", report.picture);
     if (!report.difference.empty()) json.member("difference_picture", report.difference);
-    write_looks(json, options, report);
     if (!report.rays) {
         write_resolution(json, options.resolution);
         json.member("repetitions", report.passes.front().trace_seconds.size());

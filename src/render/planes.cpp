@@ -82,6 +82,14 @@ PixelPlanes record_planes(const Scene& scene, const Primitives& primitives, cons
     PixelPlanes planes;
     const auto record = [&](const auto& kernel, auto& tracer, const TraceCounts& counts) {
         const RayGenerator rays(scene.camera, resolution);
+        const auto pixels = static_cast<std::size_t>(resolution.width) *
+                            static_cast<std::size_t>(resolution.height);
+        planes.tests.reserve(pixels);
+        planes.searches.reserve(pixels);
+        planes.t.reserve(pixels);
+        planes.shape.reserve(pixels);
+        planes.triangle.reserve(pixels);
+        planes.stage.reserve(pixels);
         for (int y = 0; y < resolution.height; ++y)
             for (int x = 0; x < resolution.width; ++x) {
                 const TraceCounts before = counts;

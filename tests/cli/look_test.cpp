@@ -92,6 +92,42 @@ TEST_F(Look, PlanesAddUpToTheCountersAndTheVoxelsAreThoseOfTheReport) {
     }
 }
 
+TEST_F(Look, ComparedPassesHaveTheirOwnPlanesThatAddUpAndOneScale) {
+    put("a.x3d", grid_scene(3));
+    for (const char* profile : {"--profile=exact", "--profile=fast", "--precision=float"}) {
+        SCOPED_TRACE(profile);
+        const Outcome outcome =
+            run({"--file=a", "-compare=brute", "--res=40,30", profile, "--heatmap=tests",
+                 "--planes=p", "--octree=o.json", "--json=r.json"});
+        ASSERT_LE(outcome.exit_code, 1) << outcome.err;
+        const json report = read_json("r.json");
+        double largest = 0;
+        for (const json& pass : report["passes"])
+            largest = std::max(largest, pass["heatmap"]["largest"].get<double>());
+        for (const json& pass : report["passes"]) {
+            EXPECT_EQ(pass["heatmap"]["scale_max"], largest);
+            EXPECT_TRUE(exists(pass["heatmap"]["file"]));
+            std::string prefix = pass["planes"][0];
+            prefix.resize(prefix.size() - std::string("tests.npy").size());
+            EXPECT_EQ(sum(plane<std::uint32_t>(prefix + "tests.npy", "<u4", 40, 30)),
+                      pass["counts"]["intersection_tests"])
+                << prefix;
+            EXPECT_EQ(sum(plane<std::uint32_t>(prefix + "searches.npy", "<u4", 40, 30)),
+                      pass["counts"]["voxel_searches"])
+                << prefix;
+            if (pass["name"] == "brute force") {
+                EXPECT_EQ(pass["counts"]["intersection_tests"],
+                          27 * (pass["counts"]["primary_rays"].get<std::uint64_t>() +
+                                pass["counts"]["shadow_rays"].get<std::uint64_t>()));
+                continue;
+            }
+            const json octree = read_json(pass["octree_file"]);
+            EXPECT_EQ(octree["leaves"].size(), pass["tree"]["voxels"]);
+        }
+        EXPECT_TRUE(exists("p-brute-force-stage.npy"));
+    }
+}
+
 TEST_F(Look, LookingLeavesThePictureAlone) {
     put("a.x3d", kSmallScene);
     for (const char* profile : {"--profile=exact", "--profile=fast", "--profile=thesis"}) {
@@ -188,7 +224,8 @@ TEST_F(Look, WhatCannotBeShownIsRefused) {
     refused({"--res=8,6", "--pixel=-1,0"}, "within the picture");
     refused({"--res=8,6", "--pixel=3"}, "within the picture");
     refused({"--pixel=1,1", "--heatmap=tests"}, "cannot be combined");
-    refused({"--heatmap=tests", "-compare"}, "cannot be combined");
+    refused({"--pixel=1,1", "-compare"}, "cannot be combined");
+    refused({"--heatmap=tests", "--describe"}, "cannot be combined");
     refused({"--octree=a.x3d"}, "would be overwritten");
     refused({"--octree=o.json", "--json=o.json"}, "written twice");
     expect_refused({"--file=a", "--res=8,8", "--planes=missing/p"}, 4, {"missing"});

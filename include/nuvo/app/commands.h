@@ -39,10 +39,6 @@ std::filesystem::path find_scene(const std::string& name);
 /// Where the picture of a scene goes when nobody says: beside it, .x3d replaced by .bmp.
 std::filesystem::path picture_beside(const std::filesystem::path& scene);
 
-/// Where the heat map goes: "NAME-tests.png" beside the picture; a picture that is no regular file
-/// (a device) takes it, too.
-std::filesystem::path heatmap_beside(const std::filesystem::path& picture, HeatmapOf of);
-
 /// Where the difference picture goes: "NAME-difference" beside the picture, with its ending; a
 /// picture that is no regular file (a device) takes it, too.
 std::filesystem::path difference_beside(const std::filesystem::path& picture);

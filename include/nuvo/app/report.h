@@ -54,6 +54,21 @@ struct TileFigures {
 /// All but the last two.
 TileFigures figures(const FastTracer& tracer, const FastOptions& options);
 
+/// A heat map that was written.
+struct HeatmapFigures {
+    std::string file;
+    HeatmapOf of = HeatmapOf::kTests;
+    double largest = 0;    ///< value of the plane
+    double scale_max = 0;  ///< the value at the top of the scale
+};
+
+/// The files by which others look at a pass.
+struct LookFiles {
+    std::optional<HeatmapFigures> heatmap;
+    std::vector<std::string> planes;
+    std::string octree;  ///< empty: none was written
+};
+
 /// One way of rendering the scene: its tree, its counts and every time taken.
 struct Pass {
     std::string name;  ///< "uniform", "nonuniform", "serial" or "brute force"
@@ -62,6 +77,7 @@ struct Pass {
     std::optional<TileFigures> tiles;   ///< tree and counts are then of walked_profile()
     std::optional<PixelPlanes> planes;  ///< if they were asked for
     std::optional<Octree> octree;       ///< if it is to be written
+    LookFiles files;                    ///< made of these
     std::vector<double> build_seconds;  ///< one a repetition, summed over the threads
     std::vector<double> trace_seconds;
     std::vector<double> build_wall_seconds;
@@ -77,22 +93,11 @@ struct Pair {
     image::Difference difference;
 };
 
-/// A heat map that was written.
-struct HeatmapFigures {
-    std::string file;
-    HeatmapOf of = HeatmapOf::kTests;
-    double largest = 0;    ///< value of the plane
-    double scale_max = 0;  ///< the value at the top of the scale
-};
-
 /// All that a run has to tell.
 struct Report {
     std::string file;
-    std::string picture;                    ///< empty: none was written
-    std::string difference;                 ///< the difference picture; empty: none was written
-    std::vector<std::string> planes;        ///< the files
-    std::optional<HeatmapFigures> heatmap;  ///< if one was written
-    std::string octree;                     ///< the octree's file; empty: none was written
+    std::string picture;     ///< empty: none was written
+    std::string difference;  ///< the difference picture; empty: none was written
     SceneCounts scene;
     double parse_seconds = 0;
     double write_seconds = 0;
