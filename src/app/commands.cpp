@@ -1,5 +1,7 @@
 #include "nuvo/app/commands.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <iostream>
 #include <system_error>
@@ -26,8 +28,19 @@ std::vector<fs::path> with_json(std::vector<fs::path> outputs, const Options& op
     return outputs;
 }
 
+/// Where the report goes: not among bytes.
+std::ostream& report_stream(const Options& options) {
+    return options.standard_output_taken() ? std::cerr : std::cout;
+}
+
 void print_report(const Options& options, const Report& report) {
-    if (!options.quiet) std::cout << report_text(options, report);
+    if (!options.quiet) report_stream(options) << report_text(options, report);
+}
+
+/// Nobody reads a picture on a terminal.
+void check_terminal(const Options& options) {
+    if (options.out == kStandardStream && ::isatty(STDOUT_FILENO) != 0)
+        throw UsageError("the picture would go to the terminal: give --out=FILE");
 }
 
 void write_json(const Options& options, const Report& report) {
@@ -46,9 +59,10 @@ Profile with_type(Profile profile, OctreeType type) {
 
 Report begin_report(const LoadedScene& loaded) {
     Report report;
-    report.file = loaded.path.string();
+    report.file = loaded.name;
     report.scene = count(loaded.scene);
     report.parse_seconds = loaded.parse_seconds;
+    report.parse_wall_seconds = loaded.parse_wall_seconds;
     return report;
 }
 
@@ -115,6 +129,7 @@ bool is_further_apart(const image::Difference& a, const image::Difference& b) {
 }  // namespace
 
 ExitCode render_command(const Options& options) {
+    check_terminal(options);
     const LoadedScene loaded = load(options);
     const fs::path picture_path = chosen_picture(options, loaded);
     std::vector<fs::path> outputs = look_files(options, picture_path, "");
@@ -132,6 +147,7 @@ ExitCode render_command(const Options& options) {
     const StageStopwatch write;
     image::write_picture(picture_path, picture);
     report.write_seconds = write.seconds();
+    report.write_wall_seconds = write.wall_seconds();
     report.picture = picture_path.string();
     write_looks(options, picture_path, report.file, report.passes);
     write_json(options, report);
@@ -163,7 +179,8 @@ ExitCode compare_command(const Options& options) {
         report.passes.back().name = "serial";
     }
     if (options.compare_brute_force) {
-        if (!options.quiet) std::cout << brute_force_forecast(loaded.scene, options) << std::flush;
+        if (!options.quiet)
+            report_stream(options) << brute_force_forecast(loaded.scene, options) << std::flush;
         report.passes.push_back(run_brute_force(loaded.scene, options, pictures.emplace_back()));
     }
 
@@ -184,6 +201,7 @@ ExitCode compare_command(const Options& options) {
     image::write_picture(difference_path,
                          image::difference_picture(pictures[far_first], pictures[far_second]));
     report.write_seconds = write.seconds();
+    report.write_wall_seconds = write.wall_seconds();
     report.picture = picture_path.string();
     report.difference = difference_path.string();
     write_looks(options, picture_path, report.file, report.passes);
@@ -215,6 +233,7 @@ ExitCode rays_command(const Options& options) {
         std::cout << text;
     }
     report.write_seconds = write.seconds();
+    report.write_wall_seconds = write.wall_seconds();
     write_json(options, report);
     if (options.out) print_report(options, report);  // else the answers have standard output
     return kDone;
@@ -222,7 +241,7 @@ ExitCode rays_command(const Options& options) {
 
 ExitCode describe_command(const Options& options) {
     const LoadedScene loaded = load(options);
-    std::cout << description(loaded.path.string(), loaded.scene, loaded.parse_seconds);
+    std::cout << description(loaded.name, loaded.scene, loaded.parse_seconds);
     return kDone;
 }
 

@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <system_error>
 
@@ -39,6 +41,35 @@ double parse_number(std::string_view text, double low, bool or_equal, const std:
     return value;
 }
 
+/// "x,y,z", also with blanks between.
+Point3 parse_point(std::string_view text) {
+    const std::string demand = "must be X,Y,Z, three numbers";
+    Point3 point;
+    for (double* const coordinate : {&point.x, &point.y, &point.z}) {
+        const bool last = coordinate == &point.z;
+        const std::size_t end = last ? text.size() : text.find_first_of(", ");
+        if (end == std::string_view::npos) throw UsageError(demand);
+        *coordinate =
+            parse_number(text.substr(0, end), std::numeric_limits<double>::lowest(), true, demand);
+        if (last) break;
+        text.remove_prefix(end + 1);
+        text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
+    }
+    return point;
+}
+
+void apply_samples(Options& options, const std::string& value) {
+    options.samples = parse_integer(value, 1, kMaxSamples,
+                                    "must be a whole number 1 to " + std::to_string(kMaxSamples));
+}
+
+void apply_fov(Options& options, const std::string& value) {
+    constexpr double kHalfTurn = 180;
+    const std::string demand = "must be degrees above 0 and below 180";
+    options.fov_degrees = parse_number(value, 0, false, demand);
+    if (*options.fov_degrees >= kHalfTurn) throw UsageError(demand);
+}
+
 std::string non_empty(const std::string& value, const std::string& what) {
     if (value.empty()) throw UsageError("needs " + what);
     return value;
@@ -46,9 +77,9 @@ std::string non_empty(const std::string& value, const std::string& what) {
 
 void apply_resolution(Options& options, const std::string& value) {
     const int most = options.max_side_pixels;
-    const std::string demand = "must be W,H, each side 1 to " + std::to_string(most) +
+    const std::string demand = "must be W,H or WxH, each side 1 to " + std::to_string(most) +
                                " pixels (limit " + std::to_string(most) + ", --max-side)";
-    const std::size_t comma = value.find(',');
+    const std::size_t comma = value.find_first_of(",xX");
     if (comma == std::string::npos) throw UsageError(demand);
     const std::string_view text = value;
     options.resolution = {parse_integer(text.substr(0, comma), 1, most, demand),
@@ -137,6 +168,17 @@ std::size_t parse_limit(const std::string& value, std::size_t most) {
 constexpr std::size_t kMostThings = 1'000'000'000;
 constexpr std::size_t kMostBytes = 1'000'000'000'000;
 
+std::vector<Flag> camera_flags() {
+    return {
+        {"from", "--from", "X,Y,Z", "",
+         "the camera's place; without --at it looks at the middle of the scene",
+         [](Options& o, const std::string& v) { o.from = parse_point(v); }},
+        {"at", "--at", "X,Y,Z", "", "the point in the middle of the picture, +y upwards",
+         [](Options& o, const std::string& v) { o.at = parse_point(v); }},
+        {"fov", "--fov", "DEGREES", "", "the smaller of the two angles of view", apply_fov},
+    };
+}
+
 std::vector<Flag> scene_flags() {
     const x3d::Limits standard;
     return {
@@ -193,13 +235,15 @@ std::vector<Flag> thesis_flags() {
     const std::string standard_resolution =
         std::to_string(Resolution().width) + "," + std::to_string(Resolution().height);
     return {
-        {"file", "--file", "PATH", Options().file, "the X3D scene; .x3d may be left out",
+        {"file", "--file", "PATH", Options().file,
+         "the X3D scene, --file= may be left out, and so may .x3d; - reads standard input",
          [](Options& o, const std::string& v) { o.file = non_empty(v, "a file name"); }},
         {"rep", "--rep", "N", std::to_string(Options().repetitions),
          "build and trace N times and print the average; 1 to " + std::to_string(kMaxRepetitions),
          apply_repetitions},
         {"res", "--res", "W,H", standard_resolution,
-         "size of the picture, each side 1 to " + std::to_string(kMaxSidePixels) + " pixels",
+         "size of the picture, W,H or WxH, each side 1 to " + std::to_string(kMaxSidePixels) +
+             " pixels",
          apply_resolution},
         {"type", "--type", joined_names(kOctreeTypes), "uniform",
          "the octree; by default the fast profile takes what it measures to be smaller",
@@ -228,8 +272,10 @@ std::vector<Flag> profile_flags() {
          "below but the type themselves",
          [](Options& o, const std::string& v) { o.profile.tracer = parse_choice(kTracers, v); }},
         {"threads", "--threads", "N", std::to_string(Options().threads),
-         "threads of the tile tracer, up to " + std::to_string(kMaxThreads) +
-             "; 0: one for each core",
+         "threads, up to " + std::to_string(kMaxThreads) +
+             "; 0: one for each core; with the exact profile any but 1 bring the tile tracer, "
+             "whose "
+             "picture is the same",
          [](Options& o, const std::string& v) {
              o.threads = parse_integer(
                  v, 0, kMaxThreads, "must be a whole number 0 to " + std::to_string(kMaxThreads));
@@ -286,8 +332,12 @@ std::vector<Flag> output_flags() {
          }},
         {"out", "--out", "FILE", "",
          "the picture (default: beside the scene), .png or .bmp by its ending; or the rays' "
-         "answers",
+         "answers; -: standard output (BMP), and the report to standard error",
          [](Options& o, const std::string& v) { o.out = non_empty(v, "a file name"); }},
+        {"samples", "--samples", "N", "1",
+         "make each pixel the mean of N x N exact ones, rounded to the nearest; 1 to " +
+             std::to_string(kMaxSamples),
+         apply_samples},
         {"json", "--json", "FILE", "", "write counts and every raw time to FILE",
          [](Options& o, const std::string& v) { o.json = non_empty(v, "a file name"); }},
         {"headlight", "--headlight", joined_names(kHeadlights), "auto",
@@ -303,7 +353,8 @@ std::vector<Flag> output_flags() {
          [](Options& o, const std::string&) { o.counters = true; }},
         {"quiet", "--quiet", "", "", "no report on standard output",
          [](Options& o, const std::string&) { o.quiet = true; }},
-        {"version", "--version", "", "", "print the version",
+        {"version", "--version", "", "",
+         "print version, commit, compiler, instruction sets and libraries",
          [](Options& o, const std::string&) { o.version = true; }},
     };
 }
@@ -337,9 +388,20 @@ std::vector<Flag> look_flags() {
 }
 
 std::vector<Flag> make_flags() {
-    std::vector<Flag> all = thesis_flags();
-    for (const auto& part : {profile_flags(), output_flags(), look_flags(), scene_flags()})
+    const std::pair<const char*, std::vector<Flag>> groups[] = {
+        {"Scene, picture and octree, as in the thesis", thesis_flags()},
+        {"Profile and its answers", profile_flags()},
+        {"What is made and told", output_flags()},
+        {"Looking into a picture", look_flags()},
+        {"Camera", camera_flags()},
+        {"Reading the scene", scene_flags()}};
+    std::vector<Flag> all;
+    for (const auto& [heading, part] : groups) {
         all.insert(all.end(), part.begin(), part.end());
+        for (auto flag = all.end() - static_cast<std::ptrdiff_t>(part.size()); flag != all.end();
+             ++flag)
+            flag->group = heading;
+    }
     return all;
 }
 

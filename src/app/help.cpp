@@ -40,8 +40,23 @@ std::string in_table_cell(const std::string& text) {
 std::string help_text() {
     std::string out =
         "nuvo: ray tracing through uniform and non-uniform octrees\n"
-        "usage: nuvo [flag]...\n\n";
+        "usage: nuvo [flag]... [scene]\n\n"
+        "  nuvo scene.x3d --profile=fast --threads=0\n"
+        "    the picture, scene.bmp, as soon as may be\n"
+        "  nuvo scene.x3d --res=640x480 --samples=4 --out=small.png\n"
+        "    smooth edges, as PNG\n"
+        "  nuvo scene.x3d --from=3,4,5 --at=0,0,0 --fov=40 --out=view.png\n"
+        "    from elsewhere\n"
+        "  nuvo scene.x3d --rays=rays.txt --out=answers.txt\n"
+        "    what each ray meets\n"
+        "  nuvo scene.x3d --type=nonuniform --rep=5 --json=figures.json\n"
+        "    the thesis' measurement, every figure kept\n"
+        "  zcat scene.x3dz | nuvo - > picture.bmp\n"
+        "    in a pipe\n";
+    std::string group;
     for (const Flag& flag : flags()) {
+        if (flag.group != group) out += "\n" + flag.group + "\n";
+        group = flag.group;
         out += "  " + syntax(flag) + "\n";
         append_wrapped(
             out, flag.help + (flag.standard.empty() ? "" : " [default: " + flag.standard + "]"));

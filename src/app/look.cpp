@@ -152,7 +152,7 @@ ExitCode pixel_command(const Options& options) {
     const Primitives primitives = flatten(loaded.scene, profile.leaves);
     const Octree octree = build_tree(loaded.scene, primitives, profile);
     const Pixel pixel = *options.pixel;
-    const PixelReport report{loaded.path.string(), pixel.x, pixel.y, profile,
+    const PixelReport report{loaded.name, pixel.x, pixel.y, profile,
                              explain_pixel(loaded.scene, primitives, octree, profile,
                                            options.resolution, pixel.x, pixel.y)};
     if (options.octree)
@@ -160,7 +160,9 @@ ExitCode pixel_command(const Options& options) {
     if (options.json)
         image::write_file_atomically(*options.json,
                                      pixel_json(options, loaded.scene, primitives, report));
-    if (!options.quiet) std::cout << pixel_text(options, loaded.scene, primitives, report);
+    if (!options.quiet)
+        (options.standard_output_taken() ? std::cerr : std::cout)
+            << pixel_text(options, loaded.scene, primitives, report);
     return kDone;
 }
 

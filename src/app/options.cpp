@@ -72,13 +72,46 @@ po::options_description description() {
     return all;
 }
 
+/// A word that is no flag is the scene.
+void take_scene(const std::string& word, std::map<std::string, std::string>& given) {
+    const std::string name = word.substr(0, word.find('='));
+    for (const Flag& flag : flags())
+        if (name.size() < word.size() && name == flag.name)
+            throw UsageError(word + ": a flag begins with a dash, did you mean --" + word + "?");
+    if (!given.emplace("file", word).second)
+        throw UsageError(word + ": a second scene, beside " + given.at("file"));
+}
+
+/// Whether the word's value is the next word.
+bool wants_value(const std::string& word) {
+    const std::size_t dashes = std::min(word.find_first_not_of('-'), word.size());
+    if (dashes == 0 || dashes > 2) return false;
+    for (const Flag& flag : flags())
+        if (flag.name == word.substr(dashes)) return !flag.value.empty() && !flag.may_stand_alone();
+    return false;
+}
+
+/// The words that are neither flags nor their values, taken out of the arguments.
+std::vector<std::string> take_words(std::vector<std::string>& arguments) {
+    std::vector<std::string> words, flagged;
+    for (std::size_t i = 0; i < arguments.size(); ++i) {
+        const std::string& word = arguments[i];
+        const bool is_value = i > 0 && wants_value(arguments[i - 1]);
+        const bool is_flag = word.size() > 1 && word.front() == '-';
+        (is_value || is_flag ? flagged : words).push_back(word);
+    }
+    arguments = std::move(flagged);
+    return words;
+}
+
 /// Flag name to value, as typed. Values are checked later.
-std::map<std::string, std::string> read_tokens(const std::vector<std::string>& arguments) {
+std::map<std::string, std::string> read_tokens(std::vector<std::string> arguments) {
     namespace style = po::command_line_style;
     const int any_dashes =
         (style::default_style & ~style::allow_guessing) | style::allow_long_disguise;
     const po::options_description all = description();
     std::map<std::string, std::string> given;
+    const std::vector<std::string> words = take_words(arguments);
     try {
         const po::parsed_options parsed = po::command_line_parser(arguments)
                                               .options(all)
@@ -88,8 +121,6 @@ std::map<std::string, std::string> read_tokens(const std::vector<std::string>& a
         for (const po::option& option : parsed.options) {
             const std::string token =
                 option.original_tokens.empty() ? option.string_key : option.original_tokens[0];
-            if (option.position_key != -1)
-                throw UsageError(token + ": not a flag (a scene is given as --file=" + token + ")");
             if (option.unregistered) fail_unknown(token);
             const std::string value = option.value.empty() ? std::string() : option.value[0];
             if (!given.emplace(option.string_key, value).second)
@@ -98,6 +129,7 @@ std::map<std::string, std::string> read_tokens(const std::vector<std::string>& a
     } catch (const po::error& error) {
         throw UsageError(error.what());
     }
+    for (const std::string& word : words) take_scene(word, given);
     return given;
 }
 
@@ -111,6 +143,20 @@ void apply(const Flag& flag, const std::map<std::string, std::string>& given, Op
     }
 }
 
+/// Answers that the tile tracer gives itself.
+constexpr const char* kSerialAnswers[] = {"midpoint", "costs", "max-objects", "leaves",
+                                          "walk",     "step",  "precision",   "bias"};
+
+/// Several threads are the tile tracer's, whose picture is the exact profile's: they bring it where
+/// nothing speaks for the other.
+void take_tracer_of_threads(const std::map<std::string, std::string>& given, Options& options) {
+    const auto is_given = [&given](const char* name) { return given.count(name) != 0; };
+    if (options.threads == 1 || is_given("tracer") || options.show_octree || options.study) return;
+    if (options.profile.precision != Precision::kExact || options.profile_name == "thesis") return;
+    if (std::any_of(std::begin(kSerialAnswers), std::end(kSerialAnswers), is_given)) return;
+    options.profile.tracer = TracerChoice::kTiles;
+}
+
 /// What has no meaning with the tile tracer, or none without it.
 void check_tile_tracer(const Options& options, const std::map<std::string, std::string>& given) {
     const auto as_typed = [&given](const char* name) {
@@ -118,14 +164,15 @@ void check_tile_tracer(const Options& options, const std::map<std::string, std::
     };
     if (options.profile.tracer == TracerChoice::kSerial) {
         for (const char* own : {"threads", "isa"})
-            if (given.count(own) != 0)
+            if (given.count(own) != 0 && given.at(own) != "1")
                 throw UsageError(as_typed(own) +
                                  ": the serial tracer has no choice of it (add --profile=fast)");
         return;
     }
-    const std::string cause = as_typed(given.count("tracer") != 0 ? "tracer" : "profile");
-    for (const char* fixed :
-         {"midpoint", "costs", "max-objects", "leaves", "walk", "step", "precision", "bias"})
+    const std::string cause = as_typed(given.count("tracer") != 0    ? "tracer"
+                                       : given.count("profile") != 0 ? "profile"
+                                                                     : "threads");
+    for (const char* fixed : kSerialAnswers)
         if (given.count(fixed) != 0)
             throw UsageError(as_typed(fixed) + " and " + cause +
                              " cannot be combined: the tile tracer answers that itself");
@@ -161,6 +208,47 @@ void check_looking(const Options& options, const std::map<std::string, std::stri
             "--precision=exact)");
 }
 
+/// Standard input and output are there once each.
+void check_streams(const Options& options) {
+    const auto is_stream = [](const std::optional<std::string>& name) {
+        return name == kStandardStream;
+    };
+    if (options.file == kStandardStream && is_stream(options.rays))
+        throw UsageError("--file=- and --rays=- cannot both be standard input");
+    const bool bare_answers = options.rays && !options.out;
+    if (is_stream(options.json) && (is_stream(options.out) || bare_answers))
+        throw UsageError("--json=-: standard output is taken by " +
+                         std::string(options.rays ? "the answers" : "the picture") +
+                         " (name a file for one of them)");
+    if (options.compare && is_stream(options.out))
+        throw UsageError(
+            "-compare writes two pictures, which standard output cannot take (give --out=FILE)");
+    if (options.show_octree && options.standard_output_taken())
+        throw UsageError("-showoctree prints to standard output, which is taken by other bytes");
+}
+
+void check_samples(const Options& options, const std::map<std::string, std::string>& given) {
+    if (given.count("samples") == 0) return;
+    for (const char* other : {"heatmap", "planes", "pixel"})
+        if (given.count(other) != 0)
+            throw UsageError("--samples=" + given.at("samples") +
+                             ": a pixel is several rays, of "
+                             "which --" +
+                             other + " cannot tell (leave one out)");
+    if (options.rays || options.study || options.describe)
+        throw UsageError("--samples=" + given.at("samples") + " is about one picture: leave " +
+                         (options.rays    ? "--rays"
+                          : options.study ? "--study"
+                                          : "--describe") +
+                         " out");
+    const Resolution traced = options.traced_resolution();
+    if (traced.width > options.max_side_pixels || traced.height > options.max_side_pixels)
+        throw UsageError("--samples=" + given.at("samples") + ": " + std::to_string(traced.width) +
+                         " x " + std::to_string(traced.height) +
+                         " pixels to trace, each side may be up to " +
+                         std::to_string(options.max_side_pixels) + " (--max-side)");
+}
+
 void check_combinations(const Options& options, const std::map<std::string, std::string>& given) {
     const auto is_given = [&given](const char* name) { return given.count(name) != 0; };
     if (options.compare && is_given("type"))
@@ -175,9 +263,9 @@ void check_combinations(const Options& options, const std::map<std::string, std:
     if (options.show_octree && options.rays)
         throw UsageError("-showoctree and --rays cannot be combined");
     if (options.study)
-        for (const char* other :
-             {"compare", "rays", "showoctree", "profile", "costs", "leaves", "walk", "step",
-              "precision", "bias", "tracer", "threads", "isa", "out", "json", "counters", "error"})
+        for (const char* other : {"compare", "rays", "showoctree", "profile", "costs", "leaves",
+                                  "walk", "step", "precision", "bias", "tracer", "threads", "isa",
+                                  "samples", "out", "json", "counters", "error"})
             if (is_given(other))
                 throw UsageError(
                     std::string("--study chooses the answers and the outputs: leave --") + other +
@@ -186,6 +274,8 @@ void check_combinations(const Options& options, const std::map<std::string, std:
         for (const char* other : {"compare", "rays", "showoctree", "out", "json"})
             if (is_given(other))
                 throw UsageError(std::string("--describe draws nothing: leave ") + other + " out");
+    check_streams(options);
+    check_samples(options, given);
     if (options.out && !options.rays && !image::picture_format(*options.out))
         throw UsageError("--out=" + *options.out + ": pictures are .bmp or .png");
     check_looking(options, given);
@@ -200,6 +290,15 @@ void check_combinations(const Options& options, const std::map<std::string, std:
 
 }  // namespace
 
+bool Options::standard_output_taken() const {
+    return out == kStandardStream || json == kStandardStream || study_json == kStandardStream ||
+           (rays && !out);
+}
+
+Resolution Options::traced_resolution() const {
+    return {resolution.width * samples, resolution.height * samples};
+}
+
 Options parse(const std::vector<std::string>& arguments) {
     const std::map<std::string, std::string> given = read_tokens(arguments);
     Options options;
@@ -211,6 +310,9 @@ Options parse(const std::vector<std::string>& arguments) {
     for (const bool first : {true, false})
         for (const Flag& flag : flags())
             if ((flag.name == "max-side") == first) apply(flag, given, options);
+    take_tracer_of_threads(given, options);
+    const bool draws = !options.rays && !options.study && !options.describe && !options.pixel;
+    if (options.file == kStandardStream && !options.out && draws) options.out = kStandardStream;
     check_combinations(options, given);
     return options;
 }

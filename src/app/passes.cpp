@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "nuvo/app/choices.h"
+#include "nuvo/image/samples.h"
 #include "remarks.h"
 
 namespace nuvo::app {
@@ -37,7 +38,8 @@ class SerialRun {
                 record_planes(scene_, primitives_, &octree_, profile_, options.resolution);
             pass.counts = pass.planes->counts;
         } else if (options.counters || options.json) {
-            pass.counts = count_events(scene_, primitives_, octree_, profile_, options.resolution);
+            pass.counts =
+                count_events(scene_, primitives_, octree_, profile_, options.traced_resolution());
         }
     }
     /// Gives the octree away.
@@ -76,8 +78,8 @@ class TileRun {
     }
     void count(Pass& pass, const Options& options) {
         if (options.counters || options.json) {
-            pass.tiles->counts = tracer_.count_rays(options.resolution);
-            tracer_.render(options.resolution, &pass.tiles->stage_seconds.emplace());
+            pass.tiles->counts = tracer_.count_rays(options.traced_resolution());
+            tracer_.render(options.traced_resolution(), &pass.tiles->stage_seconds.emplace());
         }
         if (!options.wants_planes() && !options.octree) return;
         walked_.type = tracer_.octree_type();
@@ -103,22 +105,25 @@ Pass run_repeatedly(const Scene& scene, const Options& options, const Profile& p
     Pass pass;
     pass.name = name_of(kOctreeTypes, profile.type);
     std::optional<Run> run;
+    Image samples;
     const ProcessStopwatch process;
     for (int i = 0; i < repetitions; ++i) {
         run.reset();
         const StageStopwatch build;
         run.emplace(scene, options, profile);
         note(pass.build_seconds, pass.build_wall_seconds, build);
-        picture = Image();  // two pictures need not be held at once
+        picture = samples = Image();  // two pictures need not be held at once
         const StageStopwatch trace;
-        picture = run->picture(options.resolution);
+        samples = run->picture(options.traced_resolution());
+        if (options.samples > 1) picture = image::averaged(samples, options.samples);
         note(pass.trace_seconds, pass.trace_wall_seconds, trace);
     }
     pass.process = process.elapsed();
     run->describe(pass);
     run->count(pass, options);
-    pass.remarks = remarks(scene, profile, picture,
+    pass.remarks = remarks(scene, profile, samples,
                            [&](std::span<const Ray> rays) { return run->answers(rays); });
+    if (options.samples == 1) picture = std::move(samples);
     if (options.octree) run->leave_octree(pass);
     return pass;
 }
@@ -174,7 +179,8 @@ Pass run_brute_force(const Scene& scene, const Options& options, Image& picture)
     const Primitives primitives = flatten(scene, options.profile.leaves);
     const ProcessStopwatch process;
     const StageStopwatch trace;
-    picture = render_brute_force(scene, primitives, options.profile, options.resolution);
+    picture = render_brute_force(scene, primitives, options.profile, options.traced_resolution());
+    if (options.samples > 1) picture = image::averaged(picture, options.samples);
     note(pass.trace_seconds, pass.trace_wall_seconds, trace);
     pass.process = process.elapsed();
     if (options.wants_planes()) {

@@ -9,6 +9,7 @@
 #include <new>
 #include <stdexcept>
 
+#include "nuvo/app/build_info.h"
 #include "nuvo/app/commands.h"
 #include "nuvo/app/options.h"
 #include "nuvo/app/rays.h"
@@ -62,7 +63,7 @@ ExitCode obey(const Options& options) {
         return kDone;
     }
     if (options.version) {
-        std::cout << "nuvo " << NUVO_VERSION << '\n';
+        std::cout << version_text();
         return kDone;
     }
     if (options.describe) return describe_command(options);

@@ -118,23 +118,56 @@ std::string file_lines(const LookFiles& files) {
     return lines;
 }
 
+double sum(const std::vector<double>& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+/// What the user waited for, on the clock of the wall.
+std::string headline(const Options& options, const Report& report) {
+    double build = 0, trace = 0;
+    std::size_t pictures = 0;
+    for (const Pass& pass : report.passes) {
+        build += sum(pass.build_wall_seconds);
+        trace += sum(pass.trace_wall_seconds);
+        pictures += pass.trace_wall_seconds.size();
+    }
+    std::string line =
+        format("%-10s %.3g s: read %.3g, build %.3g, trace %.3g, write %.3g s", "waited",
+               report.parse_wall_seconds + build + trace + report.write_wall_seconds,
+               report.parse_wall_seconds, build, trace, report.write_wall_seconds);
+    if (pictures > 1) line += format(" (%zu times built and traced)", pictures);
+    const Resolution traced = options.traced_resolution();
+    const double rays = report.rays ? static_cast<double>(*report.rays)
+                                    : static_cast<double>(traced.width) * traced.height *
+                                          static_cast<double>(pictures);
+    if (trace > 0 && rays > 0)
+        line += format("; %.3g million %srays a second", rays / trace / 1e6,
+                       report.rays ? "" : "primary ");
+    return line + "\n";
+}
+
 std::string average_line(const Pass& pass) {
     const auto repetitions =
         static_cast<double>(std::max<std::size_t>(1, pass.trace_seconds.size()));
     const ProcessTimes& all = pass.process;
-    std::string line = format(
-        "%-10s %.6f s to build and trace once (user processor time over %s; in all user "
-        "%.2f, system %.2f, wall %.2f s)\n",
-        "average", all.user_seconds / repetitions,
-        counted(pass.trace_seconds.size(), "repetition").c_str(), all.user_seconds,
-        all.system_seconds, all.wall_seconds);
+    // The thesis' clock tells nothing of short times.
     constexpr double kShortSeconds = 1;
-    if (all.user_seconds < kShortSeconds)
-        line += format(
-            "%-10s under %.0f s in all and this clock steps by %.0f ms: rather read "
-            "build and trace\n",
-            "", kShortSeconds, kUserClockStepSeconds * 1000);
-    return line;
+    const bool is_short = all.user_seconds < kShortSeconds;
+    double seconds = is_short ? mean(pass.build_seconds) + mean(pass.trace_seconds)
+                              : all.user_seconds / repetitions;
+    const bool is_untold = seconds == 0;  // a system whose finest clock steps, too
+    if (is_untold) seconds = mean(pass.build_wall_seconds) + mean(pass.trace_wall_seconds);
+    return format(
+        "%-10s %.6f s to build and trace once (%s over %s; in all user "
+        "%.2f, system %.2f, wall %.2f s%s)\n",
+        "average", seconds,
+        is_untold  ? "time on the wall"
+        : is_short ? "processor time by a fine clock"
+                   : "user processor time",
+        counted(pass.trace_seconds.size(), "repetition").c_str(), all.user_seconds,
+        all.system_seconds, all.wall_seconds,
+        is_short ? format("; the user clock steps by %.0f ms", kUserClockStepSeconds * 1000).c_str()
+                 : "");
 }
 
 std::string difference_text(const image::Difference& d) {
@@ -224,7 +257,8 @@ std::string profile_flags_text(const Options& options) {
 
 std::string report_text(const Options& options, const Report& report) {
     const SceneCounts& scene = report.scene;
-    std::string text =
+    std::string text = headline(options, report);
+    text +=
         format("%-10s %s: %s, %s, %s, %s\n", "scene", report.file.c_str(),
                counted(scene.shapes, "shape").c_str(), counted(scene.triangles, "triangle").c_str(),
                counted(scene.spheres, "sphere").c_str(), counted(scene.lights, "light").c_str());
@@ -234,8 +268,11 @@ std::string report_text(const Options& options, const Report& report) {
         text += format("%-10s %s, as measured on the scene (--type chooses)\n", "type",
                        report.passes.front().name.c_str());
     if (!report.rays)
-        text += format("%-10s %d x %d\n", "pixels", options.resolution.width,
-                       options.resolution.height);
+        text += format(
+            "%-10s %d x %d%s\n", "pixels", options.resolution.width, options.resolution.height,
+            options.samples == 1
+                ? ""
+                : format(", each the mean of %d x %d", options.samples, options.samples).c_str());
     for (const Pass& pass : report.passes) {
         text += octree_lines(pass);
         if (!pass.build_seconds.empty()) text += time_line("build", pass.build_seconds);
@@ -250,7 +287,9 @@ std::string report_text(const Options& options, const Report& report) {
     if (report.rays)
         text += format("%-10s %zu, %zu of them hit\n", "rays", *report.rays, *report.hits);
     if (!report.picture.empty())
-        text += format("%-10s %s\n", report.rays ? "answers" : "picture", report.picture.c_str());
+        text +=
+            format("%-10s %s\n", report.rays ? "answers" : "picture",
+                   report.picture == kStandardStream ? "standard output" : report.picture.c_str());
     for (const Pass& pass : report.passes) text += file_lines(pass.files);
     if (!report.difference.empty())
         text += format("%-10s %s\n", "difference", report.difference.c_str());

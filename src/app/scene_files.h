@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "nuvo/app/options.h"
@@ -9,9 +10,11 @@
 namespace nuvo::app {
 
 struct LoadedScene {
-    std::filesystem::path path;
+    std::filesystem::path path;  ///< "-": standard input
+    std::string name;            ///< for messages
     Scene scene;
     double parse_seconds = 0;
+    double parse_wall_seconds = 0;
 };
 
 /// Reads the scene that the options name; its warnings go to standard error. Throws x3d::Error.
@@ -21,6 +24,9 @@ LoadedScene load(const Options& options);
 /// UsageError and image::WriteError.
 void check_outputs(const std::vector<std::filesystem::path>& inputs,
                    const std::vector<std::filesystem::path>& outputs);
+
+/// All of standard input. Throws x3d::Error where it is longer than `most` bytes.
+std::string read_standard_input(std::size_t most);
 
 bool is_regular(const std::filesystem::path& path);
 

@@ -232,10 +232,12 @@ ExitCode study_command(const Options& options) {
     const LoadedScene loaded = load(options);
     if (options.study_json) check_outputs({loaded.path}, {*options.study_json});
     const std::vector<StudyRow> rows = run_study(loaded.scene, options);
-    const std::string file = loaded.path.string();
+    const std::string& file = loaded.name;
     if (options.study_json)
         image::write_file_atomically(*options.study_json, study_json(options, file, rows));
-    if (!options.quiet) std::cout << study_text(options, file, rows);
+    if (!options.quiet)
+        (options.standard_output_taken() ? std::cerr : std::cout)
+            << study_text(options, file, rows);
     return kDone;
 }
 

@@ -42,7 +42,7 @@ bool names_open_file(const fs::path& path) {
 }
 
 bool must_be_written_directly(const fs::path& path) {
-    if (names_open_file(path)) return true;
+    if (path == kStandardOutput || names_open_file(path)) return true;
     std::error_code ignored;
     const fs::file_status status = fs::status(path, ignored);
     return fs::exists(status) && !fs::is_regular_file(status);
@@ -69,7 +69,8 @@ FileWriter::FileWriter(fs::path path) : path_(std::move(path)), target_(follow_l
 FileWriter::~FileWriter() { discard(); }
 
 void FileWriter::open_directly() {
-    descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC);
+    descriptor_ = path_ == kStandardOutput ? ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0)
+                                           : ::open(path_.c_str(), O_WRONLY | O_CLOEXEC);
     if (descriptor_ < 0) fail(errno);
 }
 
@@ -132,7 +133,9 @@ void FileWriter::discard() noexcept {
 
 void FileWriter::fail(int error) {
     discard();
-    throw WriteError(path_.string() + ": cannot write: " + reason(error));
+    const bool is_standard = path_ == kStandardOutput;
+    throw WriteError((is_standard ? "standard output" : path_.string()) +
+                     ": cannot write: " + reason(error));
 }
 
 void write_file_atomically(const fs::path& path, std::string_view bytes) {
@@ -146,6 +149,7 @@ void check_writable(const fs::path& path) {
         const FileWriter probe(path);  // dropped without a commit
         return;
     }
+    if (path == kStandardOutput) return;
     std::error_code ignored;
     // Opening a pipe would wait for its reader, so only the permission is asked for.
     const int error = fs::is_directory(path, ignored)     ? EISDIR

@@ -157,4 +157,17 @@ std::optional<Camera> fitted_camera(const Scene& scene) {
     return camera;
 }
 
+std::optional<Camera> aimed_camera(const Camera& camera, const Point3& from, const Point3& at) {
+    const Vector3 way = at * 0.5 - from * 0.5;  // halves: their difference is finite
+    if (way == Vector3{}) return std::nullopt;
+    Camera aimed = camera;
+    aimed.position = from;
+    aimed.forward = normalized(way);
+    Vector3 right = cross(aimed.forward, Vector3{0, 1, 0});
+    if (right == Vector3{}) right = {1, 0, 0};
+    aimed.right = normalized(right);
+    aimed.up = cross(aimed.right, aimed.forward);
+    return aimed;
+}
+
 }  // namespace nuvo

@@ -187,8 +187,8 @@ TEST(Options, ThreadsAndInstructionSetsAreTheTileTracers) {
     EXPECT_EQ(parse({"--tracer=tiles", "--threads=0"}).threads, 0);
     EXPECT_EQ(parse({"--profile=fast", "--threads=1024"}).threads, 1024);
     EXPECT_TRUE(contains(usage_error({"--profile=fast", "--threads=1025"}), "1024"));
-    for (const char* own : {"--threads=1", "--isa=sse2"})
-        for (const char* profile : {"--profile=exact", "--profile=thesis", "--tracer=serial"}) {
+    for (const char* own : {"--threads=2", "--threads=0", "--isa=sse2"})
+        for (const char* profile : {"--profile=thesis", "--tracer=serial", "--walk=hash"}) {
             EXPECT_TRUE(contains(usage_error({own, profile}), own));
             EXPECT_TRUE(contains(usage_error({own, profile}), "--profile=fast"));
         }
@@ -226,7 +226,10 @@ TEST(Options, LimitsHoldAtTheLimitAndOneBesideIt) {
 TEST(Options, BadValuesAreNamedWithTheirFlag) {
     for (const char* bad :
          {"--res=0,0",        "--res=99999999,1", "--res=4",        "--res=4,",
-          "--res=,4",         "--res=4,5,6",      "--res=4x5",      "--res=-4,5",
+          "--res=,4",         "--res=4,5,6",      "--res=4x5x6",    "--res=-4,5",
+          "--res=4 5",        "--res=4x",         "--samples=0",    "--samples=65",
+          "--samples=2x2",    "--from=1,2",       "--from=1,2,z",   "--at=1,2,3,4",
+          "--at=1,2,nan",     "--fov=0",          "--fov=180",      "--fov=wide",
           "--res= 4,5",       "--res=4.0,5",      "--rep=0",        "--rep=-1",
           "--rep=five",       "--rep=1e3",        "--rep=5 ",       "--rep=99999999999999999999",
           "--type=octree",    "--profile=quick",  "--costs=cheap",  "--costs=thesis:12",
@@ -276,8 +279,71 @@ TEST(Options, AFlagGivenTwiceIsRefused) {
     EXPECT_TRUE(contains(usage_error({"--quiet", "--file=a", "--quiet"}), "--quiet"));
 }
 
-TEST(Options, AWordWithoutAFlagIsRefused) {
-    EXPECT_TRUE(contains(usage_error({"scene.x3d"}), "--file=scene.x3d"));
+TEST(Options, AWordWithoutAFlagIsTheScene) {
+    EXPECT_EQ(parse({"scene.x3d"}).file, "scene.x3d");
+    EXPECT_EQ(parse({"--rep=2", "a b", "-compare"}).file, "a b");
+    EXPECT_EQ(parse({"-compare", "scene.x3d"}).file, "scene.x3d");  // not -compare=scene.x3d
+    EXPECT_EQ(parse({"--study", "scene.x3d"}).file, "scene.x3d");
+    for (const auto& two : {std::vector<std::string>{"a.x3d", "b.x3d"},
+                            std::vector<std::string>{"--file=a.x3d", "b.x3d"},
+                            std::vector<std::string>{"b.x3d", "--file=a.x3d"}}) {
+        EXPECT_TRUE(contains(usage_error(two), "a second scene")) << usage_error(two);
+        EXPECT_TRUE(contains(usage_error(two), "a.x3d")) << usage_error(two);
+        EXPECT_TRUE(contains(usage_error(two), "b.x3d")) << usage_error(two);
+    }
+    EXPECT_TRUE(contains(usage_error({"rep=5"}), "did you mean --rep=5?"));
+    EXPECT_EQ(parse({"x=y.x3d"}).file, "x=y.x3d");
+}
+
+TEST(Options, ADashIsStandardInputOrOutput) {
+    EXPECT_EQ(parse({"-"}).file, "-");
+    EXPECT_EQ(parse({"-"}).out, "-");  // there is no place beside it
+    EXPECT_TRUE(parse({"-"}).standard_output_taken());
+    EXPECT_EQ(parse({"-", "--out=a.png"}).out, "a.png");
+    EXPECT_FALSE(parse({"-", "--out=a.png"}).standard_output_taken());
+    EXPECT_FALSE(parse({"-", "--describe"}).out);
+    EXPECT_EQ(parse({"a", "--out=-"}).out, "-");
+    EXPECT_TRUE(parse({"a", "--json=-"}).standard_output_taken());
+    EXPECT_TRUE(contains(usage_error({"-", "--rays=-"}), "--rays=-"));
+    EXPECT_TRUE(contains(usage_error({"a", "--out=-", "--json=-"}), "--json=-"));
+    EXPECT_TRUE(contains(usage_error({"a", "--rays=r", "--json=-"}), "--json=-"));
+    EXPECT_TRUE(contains(usage_error({"a", "-compare", "--out=-"}), "-compare"));
+    EXPECT_TRUE(contains(usage_error({"a", "-showoctree", "--out=-"}), "-showoctree"));
+}
+
+TEST(Options, ResolutionsAreWrittenWithACommaOrAnX) {
+    for (const char* typed : {"--res=640,480", "--res=640x480", "--res=640X480"})
+        EXPECT_EQ(parse({typed}).resolution, (Resolution{640, 480})) << typed;
+}
+
+TEST(Options, ThreadsBringTheTilesWhereNothingSpeaksForTheSerialTracer) {
+    EXPECT_EQ(parse({"--threads=2"}).profile.tracer, TracerChoice::kTiles);
+    EXPECT_EQ(parse({"--threads=0", "-compare"}).profile.tracer, TracerChoice::kTiles);
+    for (const char* profile : {"--profile=exact", "--profile=thesis", "--tracer=serial"})
+        EXPECT_EQ(parse({"--threads=1", profile}).profile.tracer, TracerChoice::kSerial);
+    EXPECT_EQ(usage_error({"--threads=1", "--walk=descent"}), "");
+    EXPECT_TRUE(contains(usage_error({"--threads=2", "-showoctree"}), "--threads=2"));
+}
+
+TEST(Options, SamplesAreHeldToTheLargestSide) {
+    EXPECT_EQ(parse({}).samples, 1);
+    const Options options = parse({"--samples=3", "--res=40,30"});
+    EXPECT_EQ(options.samples, 3);
+    EXPECT_EQ(options.traced_resolution(), (Resolution{120, 90}));
+    EXPECT_EQ(usage_error({"--samples=4", "--res=4096,1"}), "");
+    const std::string error = usage_error({"--samples=4", "--res=1,4097"});
+    EXPECT_TRUE(contains(error, "--samples=4") && contains(error, "16384")) << error;
+    for (const char* other :
+         {"--rays=r", "--study", "--describe", "--heatmap=tests", "--planes=p", "--pixel=0,0"})
+        EXPECT_TRUE(contains(usage_error({"--samples=2", "--res=9,9", other}), "--samples"))
+            << other;
+}
+
+TEST(Options, TheCameraIsTakenInNumbers) {
+    const Options options = parse({"--from=1,-2.5,3e2", "--at=0, 0, -1", "--fov=40"});
+    EXPECT_EQ(options.from, (Point3{1, -2.5, 300}));
+    EXPECT_EQ(options.at, (Point3{0, 0, -1}));
+    EXPECT_EQ(options.fov_degrees, 40.0);
 }
 
 TEST(Options, FlagsThatContradictEachOtherAreRefused) {

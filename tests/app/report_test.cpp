@@ -43,10 +43,30 @@ TEST(Report, PrintsWhatTheThesisPrints) {
     EXPECT_FALSE(contains(text, "steps by")) << text;
 }
 
-TEST(Report, SaysThatAShortTimeIsCoarse) {
+TEST(Report, AShortTimeIsTakenByTheFineClock) {
     Report report = example();
-    report.passes[0].process.user_seconds = 0.99;
-    EXPECT_TRUE(contains(report_text(Options(), report), "steps by 10 ms"));
+    report.passes[0].process.user_seconds = 0;
+    report.passes[0].build_seconds = {0.0005, 0.0007};
+    report.passes[0].trace_seconds = {0.001, 0.002};
+    const std::string text = report_text(Options(), report);
+    EXPECT_TRUE(contains(text, "average    0.002100 s to build and trace once")) << text;
+    EXPECT_TRUE(contains(text, "steps by 10 ms")) << text;
+}
+
+TEST(Report, BeginsWithWhatTheUserWaitedFor) {
+    Report report = example();
+    report.parse_wall_seconds = 0.5;
+    report.write_wall_seconds = 0.25;
+    report.passes[0].build_wall_seconds = {1, 2};
+    report.passes[0].trace_wall_seconds = {4, 4};
+    Options options;
+    options.resolution = {1000, 500};
+    options.samples = 2;  // 2 pictures of 2000 x 1000 rays in 8 s
+    EXPECT_EQ(report_text(options, report)
+                  .find("waited     11.8 s: read 0.5, build 3, trace 8, write 0.25 s "
+                        "(2 times built and traced); 0.5 million primary rays a second\n"),
+              0u)
+        << report_text(options, report);
 }
 
 TEST(Report, JsonIsCleanAndHasTheRawTimes) {

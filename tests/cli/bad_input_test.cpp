@@ -114,7 +114,8 @@ TEST_F(BadInput, AnUnknownFlagIsAUsageError) {
     put("a.x3d", kSmallScene);
     expect_refused({"--file=a", "--tpye=uniform"}, kUsage, {"--tpye=uniform", "--type?"});
     expect_refused({"--file=a", "--qqqqqqqqq"}, kUsage, {"--qqqqqqqqq"});
-    expect_refused({"a.x3d"}, kUsage, {"--file=a.x3d"});
+    expect_refused({"rep=5"}, kUsage, {"--rep=5"});
+    expect_refused({"a.x3d", "--rse", "8x8"}, kUsage, {"--rse", "--res?"});
 }
 
 TEST_F(BadInput, AUsageErrorComesBeforeTheSceneIsRead) {

@@ -128,7 +128,8 @@ TEST_F(Fast, WhatCannotBeObeyedIsRefusedInOneLine) {
                    {"--walk=hash", "--profile=fast"});
     expect_refused({"--file=a", "--profile=fast", "-showoctree"}, kUsage,
                    {"-showoctree", "--profile=fast"});
-    expect_refused({"--file=a", "--threads=2"}, kUsage, {"--threads=2", "--profile=fast"});
+    expect_refused({"--file=a", "--threads=2", "--profile=thesis"}, kUsage,
+                   {"--threads=2", "--profile=fast"});
     expect_refused({"--file=a", "--isa=sse2"}, kUsage, {"--isa=sse2", "--profile=fast"});
     for (const auto& choice : app::kInstructionSets) {
         const auto sets = supported_instruction_sets();

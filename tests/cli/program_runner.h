@@ -55,9 +55,10 @@ class ProgramTest : public testing::Test {
         return names;
     }
 
-    /// Starts the program in the folder; standard output goes to `out` if given.
+    /// Starts the program in the folder; standard output goes to `out` if given, standard input
+    /// comes from its file `in`.
     pid_t start(const std::vector<std::string>& arguments, const std::string& out = "",
-                rlim_t memory_limit = RLIM_INFINITY) const {
+                rlim_t memory_limit = RLIM_INFINITY, const std::string& in = "") const {
         std::vector<std::string> words = arguments;
         words.insert(words.begin(), NUVO_PROGRAM);
         std::vector<char*> pointers;
@@ -74,7 +75,10 @@ class ProgramTest : public testing::Test {
         // What never ends shall fail, not hold up the tests.
         constexpr rlim_t kProcessorSeconds = 200;
         const rlimit processor{kProcessorSeconds, kProcessorSeconds};
-        if (::chdir(folder_.c_str()) == 0 && ::dup2(out_descriptor, STDOUT_FILENO) >= 0 &&
+        const std::string in_path = in.empty() ? "/dev/null" : (folder_ / in).string();
+        const int in_descriptor = ::open(in_path.c_str(), O_RDONLY);
+        if (::chdir(folder_.c_str()) == 0 && ::dup2(in_descriptor, STDIN_FILENO) >= 0 &&
+            ::dup2(out_descriptor, STDOUT_FILENO) >= 0 &&
             ::dup2(err_descriptor, STDERR_FILENO) >= 0 &&
             ::setrlimit(RLIMIT_CPU, &processor) == 0 &&
             (memory_limit == RLIM_INFINITY || ::setrlimit(RLIMIT_AS, &memory) == 0))
@@ -87,8 +91,9 @@ class ProgramTest : public testing::Test {
         return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, file_text(base_ / "stdout"),
                 file_text(base_ / "stderr")};
     }
-    Outcome run(const std::vector<std::string>& arguments) const {
-        return finish(start(arguments));
+    /// `in`: the file of the folder that standard input is.
+    Outcome run(const std::vector<std::string>& arguments, const std::string& in = "") const {
+        return finish(start(arguments, "", RLIM_INFINITY, in));
     }
 
     /// The run failed as it must: this code, one line on standard error that holds all of `parts`,

@@ -29,11 +29,124 @@ TEST_F(Program, HelpIsTheTableOfFlags) {
     }
 }
 
-TEST_F(Program, VersionIsOneLine) {
+TEST_F(Program, VersionTellsWhatItIsMadeOf) {
     const Outcome outcome = run({"--version"});
     EXPECT_EQ(outcome.exit_code, 0);
     EXPECT_EQ(outcome.out.rfind("nuvo ", 0), 0u);
-    EXPECT_EQ(outcome.out.find('\n') + 1, outcome.out.size());
+    EXPECT_EQ(outcome.out.substr(0, outcome.out.find('\n')).find(' ', 5), std::string::npos);
+    for (const char* part : {"\ncommit     ", "\ncompiler   ", "\nkernels    ", "sse2", "Boost 1.",
+                             "NLopt 2.", "GEOS 3.", "Highway 1.", "zlib 1.", "libpng 1.6."})
+        EXPECT_TRUE(contains(outcome.out, part)) << part << "\n" << outcome.out;
+}
+
+TEST_F(Program, APictureInAPipeIsAllThatIsThere) {
+    put("a.x3d", kSmallScene);
+    ASSERT_EQ(run({"a.x3d", "--rep=1", "--res=20x10", "--out=p.bmp"}).exit_code, 0);
+    const Outcome piped = run({"a.x3d", "--rep=1", "--res=20x10", "--out=-", "--counters"});
+    EXPECT_EQ(piped.exit_code, 0);
+    EXPECT_TRUE(piped.out == content("p.bmp"));
+    EXPECT_TRUE(contains(piped.err, "waited") && contains(piped.err, "picture    standard output"))
+        << piped.err;
+    // The scene from standard input, packed or not; the picture has no place but standard output.
+    const Outcome filtered = run({"-", "--rep=1", "--res=20x10", "--quiet"}, "a.x3d");
+    EXPECT_EQ(filtered.err, "");
+    EXPECT_TRUE(filtered.out == content("p.bmp"));
+    const Outcome json = run({"-", "--rep=1", "--res=20x10", "--out=q.bmp", "--json=-"}, "a.x3d");
+    EXPECT_EQ(nlohmann::json::parse(json.out)["scene"]["shapes"], 2);
+    EXPECT_TRUE(content("q.bmp") == content("p.bmp"));
+    EXPECT_EQ(files(), (std::set<std::string>{"a.x3d", "p.bmp", "q.bmp"}));
+}
+
+TEST_F(Program, StandardInputIsNamedAndHeldToTheLimit) {
+    put("a.x3d", kSmallScene);
+    const Outcome large = run({"-", "--res=4,4", "--max-file-size=100"}, "a.x3d");
+    EXPECT_EQ(large.exit_code, 3);
+    EXPECT_TRUE(contains(large.err, "nuvo: standard input: file: is too large (limit 100)"));
+    put("b.x3d", "<X3D><Scene>");
+    const Outcome broken = run({"-", "--res=4,4"}, "b.x3d");
+    EXPECT_EQ(broken.exit_code, 3);
+    EXPECT_EQ(broken.err.rfind("nuvo: standard input: ", 0), 0u) << broken.err;
+    EXPECT_EQ(broken.out, "");
+    const Outcome full = finish(start({"a.x3d", "--rep=1", "--res=4,4", "--out=-"}, "/dev/full"));
+    EXPECT_EQ(full.exit_code, 4);
+    EXPECT_TRUE(contains(full.err, "standard output: cannot write")) << full.err;
+}
+
+/// Bytes of the pixel rows of a BMP whose width is a multiple of 4, top row first.
+std::vector<std::string> rows_of(const std::string& bmp, std::size_t width) {
+    std::vector<std::string> rows;
+    for (std::size_t at = bmp.size(); at > 54; at -= 3 * width)
+        rows.push_back(bmp.substr(at - 3 * width, 3 * width));
+    return rows;
+}
+
+TEST_F(Program, SamplesAreTheMeanOfTheShiftedPictures) {
+    // A view in parallel: moved by an n-th of a pixel it is the picture shifted, in exact numbers.
+    constexpr int kWidth = 32, kHeight = 16, kSamples = 4;
+    const auto scene = [](double x, double y) {
+        return "<X3D version='3.3'><Scene><OrthoViewpoint fieldOfView='-4 -2 4 2' position='" +
+               std::to_string(x) + " " + std::to_string(y) +
+               " 10'/><NavigationInfo headlight='false'/>"
+               "<DirectionalLight direction='-1 -1 -1'/><Background skyColor='0.1 0.4 0.9'/>"
+               "<Shape><Appearance><Material diffuseColor='1 0.5 0.2'/></Appearance>"
+               "<Sphere radius='1.3'/></Shape></Scene></X3D>";
+    };
+    std::vector<std::vector<int>> sums(kHeight, std::vector<int>(3 * kWidth));
+    constexpr double kPixel = 8.0 / kWidth;
+    for (int j = 0; j < kSamples; ++j) {
+        for (int i = 0; i < kSamples; ++i) {
+            put("s.x3d", scene(((i + 0.5) / kSamples - 0.5) * kPixel,
+                               (0.5 - (j + 0.5) / kSamples) * kPixel));
+            ASSERT_EQ(run({"s.x3d", "--rep=1", "--res=32,16"}).exit_code, 0);
+            const auto rows = rows_of(content("s.bmp"), kWidth);
+            for (std::size_t y = 0; y < kHeight; ++y)
+                for (std::size_t b = 0; b < 3 * kWidth; ++b)
+                    sums[y][b] += static_cast<unsigned char>(rows[y][b]);
+        }
+    }
+    put("a.x3d", scene(0, 0));
+    for (const char* profile : {"--profile=exact", "--profile=fast", "--threads=2"}) {
+        ASSERT_EQ(run({"a.x3d", "--rep=2", "--res=32,16", "--samples=4", profile, "--json=a.json"})
+                      .exit_code,
+                  0);
+        const auto rows = rows_of(content("a.bmp"), kWidth);
+        std::set<int> seen;
+        for (std::size_t y = 0; y < kHeight; ++y)
+            for (std::size_t b = 0; b < 3 * kWidth; ++b) {
+                const int mean = (2 * sums[y][b] + 16) / 32;  // of 16, halves upwards
+                ASSERT_EQ(static_cast<unsigned char>(rows[y][b]), mean) << y << " " << b;
+                seen.insert(mean);
+            }
+        EXPECT_GT(seen.size(), 20u);  // edges are mixed, not merely copied
+        const auto json = nlohmann::json::parse(content("a.json"));
+        EXPECT_EQ(json["counts"]["primary_rays"], kWidth * kHeight * 16);
+        EXPECT_EQ(json["resolution"]["width"], kWidth);
+    }
+}
+
+TEST_F(Program, TheCameraStandsWhereItIsTold) {
+    // What a Viewpoint says: at 10 0 0, turned left by a quarter, looks along -x.
+    const std::string shapes =
+        "<DirectionalLight direction='-1 -0.3 -0.2'/><Shape><Appearance><Material/></Appearance>"
+        "<Box size='1 2 3'/></Shape></Scene></X3D>";
+    put("a.x3d", "<X3D version='3.0'><Scene><Viewpoint position='0 0 10'/>" + shapes);
+    put("b.x3d",
+        "<X3D version='3.0'><Scene><Viewpoint position='10 0 0' orientation='0 1 0 "
+        "1.5707963267948966' fieldOfView='0.5'/>" +
+            shapes);
+    const std::string half_radian = "--fov=28.64788975654116";
+    ASSERT_EQ(run({"b.x3d", "--rep=1", "--res=40,40"}).exit_code, 0);
+    ASSERT_EQ(run({"a.x3d", "--rep=1", "--res=40,40", "--from=10,0,0", half_radian, "--out=f.bmp"})
+                  .exit_code,
+              0);
+    ASSERT_EQ(run({"a.x3d", "--rep=1", "--res=40,40", "--from=10,0,0", "--at=2,0,0", half_radian,
+                   "--out=g.bmp"})
+                  .exit_code,
+              0);
+    EXPECT_TRUE(content("f.bmp") == content("b.bmp"));  // the box's middle is the origin
+    EXPECT_TRUE(content("g.bmp") == content("b.bmp"));
+    expect_refused({"a.x3d", "--res=4,4", "--from=1,2,3", "--at=1,2,3", "--out=n.bmp"}, 2,
+                   {"--at=1,2,3"});
 }
 
 TEST_F(Program, ThePictureLandsBesideTheSceneHoweverItIsNamed) {

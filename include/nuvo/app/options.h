@@ -17,6 +17,9 @@ inline constexpr int kLargestMaxSide = 32768;          ///< a BMP file is smalle
 inline constexpr std::size_t kLargestMaxDepth = 8192;  ///< what the stack bears
 inline constexpr int kMaxRepetitions = 1'000'000;
 inline constexpr int kMaxThreads = 1024;
+inline constexpr int kMaxSamples = 64;
+/// The name that stands for standard input or output.
+inline constexpr const char* kStandardStream = "-";
 
 /// Which plane --heatmap paints.
 enum class HeatmapOf { kTests, kSearches, kStage };
@@ -32,14 +35,18 @@ struct Options {
     std::string file = "testfiles/trianglemesh";  ///< .x3d may be missing
     int repetitions = 5;
     Resolution resolution;
+    int samples = 1;  ///< a side of the square of exact pixels whose mean a pixel is
     std::string profile_name = "exact";  ///< the bundle that `profile` started from
     Profile profile;                     ///< with the single answers put in
     bool type_given = false;             ///< else the octree is the profile's own
     int threads = 1;                     ///< of the tile tracer; 0: one for each core
     InstructionSet isa = InstructionSet::kBest;
     x3d::Headlight headlight = x3d::Headlight::kAuto;
-    std::string viewpoint;  ///< empty: the first
-    bool strict = false;    ///< what could be left out of a scene refuses it
+    std::string viewpoint;              ///< empty: the first
+    std::optional<Point3> from;         ///< the camera's place instead of the file's
+    std::optional<Point3> at;           ///< what it looks at
+    std::optional<double> fov_degrees;  ///< the smaller angle of view
+    bool strict = false;                ///< what could be left out of a scene refuses it
     x3d::Defaults (*defaults)() = &x3d::standard_defaults;  ///< else those of the profile
     x3d::Limits limits;
     int max_side_pixels = kMaxSidePixels;
@@ -65,6 +72,10 @@ struct Options {
 
     /// Whether each pixel's costs are to be recorded.
     bool wants_planes() const { return heatmap || planes; }
+    /// Whether standard output is taken by bytes, so that the report goes to standard error.
+    bool standard_output_taken() const;
+    /// The resolution at which pictures are traced before samples are averaged.
+    Resolution traced_resolution() const;
 };
 
 /// A command line that cannot be obeyed: what() is one line that names flag and value.
@@ -83,6 +94,7 @@ struct Flag {
     /// Puts the value (empty for a switch) into the options. Throws UsageError with the reason
     /// only.
     void (*apply)(Options&, const std::string& value);
+    std::string group = {};  ///< its heading in the help
 
     bool may_stand_alone() const { return value.starts_with('['); }
 };
@@ -92,7 +104,7 @@ struct Flag {
 const std::vector<Flag>& flags();
 
 /// Reads the arguments (without the program's name): flags in any order, each at most once, with
-/// one or two dashes. Throws UsageError.
+/// one or two dashes, and a word that is no flag: the scene. Throws UsageError.
 Options parse(const std::vector<std::string>& arguments);
 
 /// The command list that -h prints.

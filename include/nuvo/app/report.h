@@ -101,6 +101,8 @@ struct Report {
     SceneCounts scene;
     double parse_seconds = 0;
     double write_seconds = 0;
+    double parse_wall_seconds = 0;
+    double write_wall_seconds = 0;
     std::vector<Pass> passes;
     std::vector<Pair> pairs;
     std::optional<image::Difference> error;  ///< from the exact profile's picture

@@ -12,10 +12,14 @@ class WriteError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// The name that stands for standard output; "./-" is a file of that name.
+inline constexpr const char* kStandardOutput = "-";
+
 /// A file that appears whole or not at all. The bytes go to a temporary name in the target's
 /// folder; commit() flushes it to the disk and renames it, and a writer that dies before leaves the
 /// target as it was. What exists and is no regular file (a device, a pipe) is written directly and
-/// never renamed over. Every failure is a WriteError. One writer at a time.
+/// never renamed over, and so is standard output. Every failure is a WriteError. One writer at a
+/// time.
 class FileWriter {
   public:
     /// Opens the temporary, or the target itself where it must be written directly.

@@ -25,4 +25,9 @@ Framing framing(const Scene& scene, const Camera& camera, Resolution resolution)
 /// nothing to show, or doubles do not reach.
 std::optional<Camera> fitted_camera(const Scene& scene);
 
+/// `camera` moved to `from` and turned so that `at` lies in the middle of the picture, +y upwards;
+/// looking straight down -z is upwards, looking straight up +z. None where the points are one, or
+/// doubles do not reach.
+std::optional<Camera> aimed_camera(const Camera& camera, const Point3& from, const Point3& at);
+
 }  // namespace nuvo
