@@ -88,16 +88,6 @@ void add_signs(const ExactRay& ray, const Triangle& t, EdgeSigns& signs) {
     }
 }
 
-void add_exact_signs(const ExactRay& ray, const Triangle& t, EdgeSigns& signs) {
-    const ExactVector o(ray.origin());
-    const ExactVector d = exact_direction(ray);
-    const ExactVector corner[3] = {ExactVector(t.a) - o, ExactVector(t.b) - o,
-                                   ExactVector(t.c) - o};
-    for (int i = 0; i < 3 && !signs.decided(); ++i)
-        if (!signs.known[i])
-            signs.set(i, dot(d, cross(corner[(i + 2) % 3], corner[(i + 1) % 3])).sign());
-}
-
 /// Whether origin + d, d = direction + tail, is exactly p.
 bool is_target(const ExactRay& ray, const Point3& p) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -120,6 +110,45 @@ Point3 target(const ExactRay& ray) {
     return p;
 }
 
+/// The sign of n.v, of n known within two roundoffs and what underflowed, and of v within one: with
+/// the product and two sums six in all. [numerics: edge planes]
+std::optional<int> sure_sign(const Vector3& n, const Vector3& v) {
+    if (n == Vector3{0, 0, 0}) return 0;
+    const Vector3 size = magnitude(v);
+    const Bounded<double> product{
+        dot(n, v), gamma(6) * dot(magnitude(n), size) + 8 * kUnderflow * (sum(size) + 1)};
+    if (!product.sure()) return std::nullopt;
+    return product.sign();
+}
+
+/// Finds the unknown signs by planes through the edges and a point of the ray, or along the ray.
+void add_signs_of_planes(const EdgePlanes& planes, bool along, const ExactRay& ray,
+                         const Triangle& t, EdgeSigns& signs) {
+    const Point3 corner[3] = {t.a, t.b, t.c};
+    for (int i = 0; i < 3; ++i) {
+        if (signs.known[i]) continue;
+        const Vector3 v = along ? corner[(i + 1) % 3] - ray.origin() : ray.direction();
+        if (const std::optional<int> sign = sure_sign(planes.normal[i], v)) signs.set(i, *sign);
+    }
+}
+
+/// The point that other rays may share: the light that a way ends in, else the origin.
+Point3 shared_point(const ExactRay& ray, double end) {
+    if (end == 1)
+        if (const Point3 last = target(ray); is_target(ray, last)) return last;
+    return ray.origin();
+}
+
+void add_exact_signs(const ExactRay& ray, const Triangle& t, EdgeSigns& signs) {
+    const ExactVector o(ray.origin());
+    const ExactVector d = exact_direction(ray);
+    const ExactVector corner[3] = {ExactVector(t.a) - o, ExactVector(t.b) - o,
+                                   ExactVector(t.c) - o};
+    for (int i = 0; i < 3 && !signs.decided(); ++i)
+        if (!signs.known[i])
+            signs.set(i, dot(d, cross(corner[(i + 2) % 3], corner[(i + 1) % 3])).sign());
+}
+
 /// The way ends exactly in the triangle's plane, and so meets the triangle there if at all.
 bool ends_in_plane(const ExactRay& way, double end, const Triangle& t, StageCounts& counts) {
     if (end != 1) return false;
@@ -130,11 +159,20 @@ bool ends_in_plane(const ExactRay& way, double end, const Triangle& t, StageCoun
 [[gnu::cold, gnu::noinline]] LineTest slow_line_test(const ExactRay& ray, double end,
                                                      const Triangle& t, EdgeSigns signs,
                                                      StageCounts& counts) {
+    const Point3 shared = shared_point(ray, end);
+    if (const EdgePlanes* known = counts.edges.known_through(t, shared))
+        add_signs_of_planes(*known, false, ray, t, signs);
+    if (signs.decided()) return signs.answer();
     add_signs<long double>(ray, t, signs);
     if (signs.decided()) return signs.answer();
     // What lies in a plane with the origin is not met beyond it, what with the end not before it.
     if (counts.sides.side(t, ray.origin(), counts.exact) == 0 || ends_in_plane(ray, end, t, counts))
         return LineTest::kMisses;
+    const EdgePlanes* planes = counts.edges.through(t, shared);
+    const bool along = !planes && ray.tail() == Vector3{0, 0, 0};
+    if (along) planes = counts.edges.along(t, ray.direction());
+    if (planes) add_signs_of_planes(*planes, along, ray, t, signs);
+    if (signs.decided()) return signs.answer();
     ++counts.exact;
     add_exact_signs(ray, t, signs);
     return signs.answer();

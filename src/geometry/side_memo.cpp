@@ -1,5 +1,4 @@
-#include <bit>
-
+#include "memo_hash.h"
 #include "plane_root.h"
 #include "predicates_exact.h"
 
@@ -7,15 +6,6 @@ namespace nuvo {
 namespace {
 
 constexpr std::size_t kEntries = 4096;  // 400 kB; a power of two
-
-/// Mixes a double into a hash (multiplication by an odd number close to 2^64 / golden ratio).
-std::uint64_t mixed(std::uint64_t hash, double value) {
-    hash = (hash ^ std::bit_cast<std::uint64_t>(value)) * 0x9e3779b97f4a7c15;
-    return hash ^ (hash >> 32);
-}
-std::uint64_t mixed(std::uint64_t hash, const Point3& p) {
-    return mixed(mixed(mixed(hash, p.x), p.y), p.z);
-}
 
 // n.(a - p), or -n.p where p is a direction.
 template <typename T>
@@ -36,16 +26,13 @@ std::optional<int> sure_side(const Triangle& t, const Vector3& p, bool far) {
     return std::nullopt;
 }
 
-bool same(const Triangle& s, const Triangle& t) { return s.a == t.a && s.b == t.b && s.c == t.c; }
-
 }  // namespace
 
 int SideMemo::exact_side(const Triangle& t, const Vector3& p, bool far, std::uint64_t& exact) {
     // An empty entry's triangle has no area, and is not asked about.
     if (entries_.empty()) entries_.resize(kEntries);
-    const std::uint64_t hash = mixed(mixed(mixed(mixed(far ? 1 : 0, t.a), t.b), t.c), p);
-    Entry& entry = entries_[hash % kEntries];
-    if (!same(entry.triangle, t) || !(entry.p == p) || entry.far != far) {
+    Entry& entry = entries_[detail::memo_hash(t, p, far) % kEntries];
+    if (!detail::same(entry.triangle, t) || !(entry.p == p) || entry.far != far) {
         ++exact;
         const ExactVector a(t.a);
         const ExactVector normal = cross(ExactVector(t.b) - a, ExactVector(t.c) - a);

@@ -2,29 +2,60 @@
 
 #include <algorithm>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "direction_cells.h"
 #include "hull_planes.h"
+#include "leaf_boxes.h"
 #include "nuvo/octree/octree.h"
 #include "nuvo/render/primitives.h"
 
 namespace nuvo {
 
-/// What is known of a leaf whose items no cut can part, because they lie in each other: found by a
-/// few rays, it spares all others most of the tests. [numerics: crowds]
+/// What is known of a leaf of many items, which no cut could part: boxes below the margin of
+/// voxels, and of items that lie in each other what a few rays found, which spares all others most
+/// of the tests. [numerics: crowds]
 template <typename Kernel>
 class Crowd {
   public:
     /// Fewer items are tested faster than looked up.
     static constexpr std::size_t kLeast = 64;
 
-    Crowd(const Kernel& kernel, std::span<const ItemId> items)
-        : kernel_(kernel), items_(items), hull_(kernel.hull(items)) {}
+    Crowd(const Kernel& kernel, const Primitives& primitives, std::span<const ItemId> items)
+        : kernel_(kernel),
+          items_(items),
+          hull_(kernel.hull(items)),
+          boxes_of_items_(primitives.item_boxes),
+          boxes_(items, primitives.item_boxes) {}
 
-    std::span<const ItemId> items() const { return items_; }
+    const LeafBoxes& boxes() const { return boxes_; }
+    /// What a ray through `point` in direction d may meet, for a point that many rays share; none:
+    /// not known.
+    std::optional<std::span<const ItemId>> towards(const Point3& point, const Vector3& d) {
+        Around* around = nullptr;
+        for (Around& known : around_)
+            if (known.point == point) around = &known;
+        if (!around) {
+            if (around_.size() == kPoints) return std::nullopt;
+            around = &around_.emplace_back(point);
+        }
+        if (!around->cells && ++around->asked == kRaysForCells) {
+            around->cells = std::make_unique<DirectionCells>(point);
+            for (const ItemId item : items_) {
+                kernel_.add_to(*around->cells, item, boxes_of_items_[item]);
+                if (around->cells->size() > kRoom) {
+                    around->cells.reset();  // and asked for no more
+                    break;
+                }
+            }
+        }
+        if (!around->cells) return std::nullopt;
+        return around->cells->towards(d);
+    }
     /// The ray surely meets none of the items.
     bool surely_missed(const ExactRay& ray) const { return hull_.surely_missed(ray); }
 
@@ -69,6 +100,16 @@ class Crowd {
     static constexpr int kPatience = 3;
     static constexpr std::size_t kRoom = std::size_t{1} << 20;  // items in all lists
 
+    // Cells cost some ten thousand tests of an item; eyes and point lights are few.
+    static constexpr int kRaysForCells = 256;
+    static constexpr std::size_t kPoints = 64;
+
+    struct Around {
+        explicit Around(const Point3& p) : point(p) {}
+        Point3 point;
+        int asked = 0;
+        std::unique_ptr<DirectionCells> cells;
+    };
     template <typename List>
     struct Listed {
         List list;
@@ -85,6 +126,9 @@ class Crowd {
     const Kernel& kernel_;
     std::span<const ItemId> items_;
     HullPlanes hull_;
+    std::span<const Bounds3> boxes_of_items_;
+    LeafBoxes boxes_;
+    std::vector<Around> around_;
     std::size_t room_ = kRoom;
     Point3 eye_;
     std::map<PrimitiveId, Listed<Front>> fronts_;  // of rays from eye_, by the winner

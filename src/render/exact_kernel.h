@@ -5,6 +5,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "direction_cells.h"
 #include "hull_planes.h"
 #include "nuvo/geometry/predicates.h"
 #include "nuvo/render/primitives.h"
@@ -136,6 +137,12 @@ class ExactKernelOf {
                 return true;
             });
         return planes;
+    }
+    /// Lists in `cells` what rays through their point may meet of this primitive.
+    void add_to(DirectionCells& cells, PrimitiveId id, const Bounds3& box) const {
+        const bool is_triangle =
+            with_triangle(id, [&](const Triangle& t) { return cells.add(id, t), true; });
+        if (!is_triangle) cells.add(id, box);
     }
     /// Whether `other` can be left out where a ray from `eye` meets `front`.
     bool hides(PrimitiveId front, const Point3& eye, PrimitiveId other) const {

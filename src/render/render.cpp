@@ -16,7 +16,14 @@ namespace {
 
 // The octree may hold so many references: see docs/performance.md, "The octree's budget".
 constexpr std::size_t kReferencesPerItem = 4;
-constexpr std::size_t kReferencesOfSmallScenes = 1 << 20;
+constexpr std::size_t kReferencesOfSmallScenes = 1 << 14;
+constexpr std::size_t kMoreReferencesPerItem = 60;
+constexpr std::size_t kMostMoreReferences = 1 << 20;
+
+std::size_t reference_budget(std::size_t items) {
+    return kReferencesPerItem * items +
+           std::min(kReferencesOfSmallScenes + kMoreReferencesPerItem * items, kMostMoreReferences);
+}
 
 ThesisCosts thesis_costs(const Scene& scene, const Primitives& primitives) {
     double shapes = kThesisShapesBase;
@@ -157,8 +164,7 @@ Octree build_tree(const Scene& scene, const Primitives& primitives, const Profil
     } else {
         options.midpoint = shrinking(options.midpoint);
         options.fallback = shrinking(spatial_midpoint);
-        options.max_references =
-            kReferencesPerItem * primitives.item_count() + kReferencesOfSmallScenes;
+        options.max_references = reference_budget(primitives.item_count());
     }
     if (profile.max_objects) options.worth = MaxObjects{*profile.max_objects};
     if (profile.leaves == LeafContent::kPrimitives)

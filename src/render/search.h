@@ -153,7 +153,8 @@ class ExactSearch {
         return false;
     }
     auto& crowd_of(const Node& leaf) {
-        return crowds_.try_emplace(leaf.first_item, kernel_, octree_.contents(leaf)).first->second;
+        return crowds_.try_emplace(leaf.first_item, kernel_, primitives_, octree_.contents(leaf))
+            .first->second;
     }
     void closest_in_crowd(const typename Kernel::PreparedRay& ray, const Node& leaf,
                           std::optional<typename Kernel::Hit>& best) {
@@ -169,7 +170,15 @@ class ExactSearch {
                 }
             }
             const auto before = best;
-            test(ray, crowd.items(), best);
+            if (const auto some = crowd.towards(ray.origin(), ray.direction()))
+                test(ray, *some, best);
+            else
+                crowd.boxes().visit(
+                    ray, [&] { return best ? kernel_.upper_t(*best) : Kernel::kInfinity; },
+                    [&](ItemId item) {
+                        if (is_new(item)) kernel_.closest(ray, of_item(item), best);
+                        return false;
+                    });
             if (best && (!before || best->primitive != before->primitive))
                 crowd.won(ray.origin(), best->primitive);
         }
@@ -180,12 +189,19 @@ class ExactSearch {
             if (crowd.surely_missed(shadow.ray)) return false;
             if (const auto usual = crowd.usual_blocker)
                 if (is_new(*usual) && kernel_.blocks(shadow, of_item(*usual))) return true;
-            const std::vector<ItemId>* const some = crowd.blockers(shadow);
-            for (const ItemId item : some ? std::span<const ItemId>(*some) : crowd.items()) {
-                if (!is_new(item) || !kernel_.blocks(shadow, of_item(item))) continue;
+            const auto blocks = [&](ItemId item) {
+                if (!is_new(item) || !kernel_.blocks(shadow, of_item(item))) return false;
                 crowd.usual_blocker = item;
                 return true;
-            }
+            };
+            std::optional<std::span<const ItemId>> some;
+            if (shadow.light->kind != Light::Kind::kDirectional)
+                some = crowd.towards(shadow.light->location, -shadow.ray.direction());
+            if (const std::vector<ItemId>* const list = crowd.blockers(shadow))
+                if (!some || list->size() < some->size()) some = *list;
+            if (some) return std::any_of(some->begin(), some->end(), blocks);
+            return crowd.boxes().visit(
+                shadow.ray, [&] { return shadow.end; }, blocks);
         }
         return false;
     }

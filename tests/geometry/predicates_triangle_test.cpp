@@ -53,6 +53,39 @@ TEST_P(TrianglePredicate, AnswersWhatRationalsAnswer) {
     RecordProperty("exact", static_cast<int>(counts.exact));
 }
 
+// The planes through edges and the eye, or a light, or along a direction are kept from the second
+// time on.
+TEST_P(TrianglePredicate, AnswersTheSameToRaysThatShareAPoint) {
+    constexpr int kCases = 500;
+    Random random(kSeed + 2, GetParam());
+    StageCounts counts;
+    for (int i = 0; i < kCases; ++i) {
+        const int kind = i % cases::kTriangleKinds;
+        const auto [ray, triangle] = cases::triangle_case(random, kind);
+        SCOPED_TRACE(::testing::Message() << GetParam().name << ", seed " << kSeed + 2 << ", case "
+                                          << i << ", kind " << kind);
+        const Point3 end = ray.origin() + ray.direction();
+        Point3 beside = end;
+        beside.x = std::nextafter(beside.x, 2 * max_norm(end) + 1);
+        const ExactRay rays[] = {ray,
+                                 ray,
+                                 ExactRay(Ray{ray.origin(), ray.direction()}),
+                                 ExactRay(Ray{ray.origin(), beside - ray.origin()}),
+                                 ExactRay(Ray{ray.origin() + (beside - end), ray.direction()}),
+                                 ExactRay::between(ray.origin(), end),
+                                 ExactRay::between(beside, end),
+                                 ExactRay::between(ray.origin() + ray.direction() * 0.25, end)};
+        for (const ExactRay& asked : rays) {
+            if (asked.direction() == Vector3{0, 0, 0}) continue;
+            const std::optional<oracle::PlaneHit> truth =
+                oracle::plane_hit(oracle::line(asked), triangle);
+            const bool meets = truth && truth->inside() && truth->t > 0;
+            ASSERT_EQ(hit(asked, triangle, counts).has_value(), meets);
+            ASSERT_EQ(blocks(asked, 1, 0, triangle, counts), meets && truth->t < 1);
+        }
+    }
+}
+
 TEST_P(TrianglePredicate, SurfacePointKeepsItsBound) {
     constexpr int kCases = 3000;
     Random random(kSeed + 1, GetParam());

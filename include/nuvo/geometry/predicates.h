@@ -40,11 +40,51 @@ class SideMemo {
     std::vector<Entry> entries_;  // by a hash, the last one asked for; none before the first
 };
 
+/// For each edge of a triangle the normal of a plane through it, times a power of two: exact within
+/// two roundoffs of each component.
+struct EdgePlanes {
+    Vector3 normal[3];
+};
+
+/// The planes through the edges and the point p, by exact arithmetic: for corners P, Q of an edge
+/// the normal is (P - p) x (Q - p).
+EdgePlanes edge_planes_through(const Triangle& triangle, const Point3& p);
+
+/// Planes that many rays share, found by exact arithmetic the second time they are asked for: a
+/// needle seen from the eye is open to every bound in every pixel.
+class EdgeMemo {
+  public:
+    /// The planes through the edges and the point p, where a ray starts or ends; none: the first
+    /// time.
+    const EdgePlanes* through(const Triangle& triangle, const Point3& p);
+    /// The planes through the edges along the ray's direction d: (Q - P) x d.
+    const EdgePlanes* along(const Triangle& triangle, const Vector3& d);
+    /// The planes through p where they are known; does not count as asked for.
+    const EdgePlanes* known_through(const Triangle& triangle, const Point3& p) const;
+
+  private:
+    struct Entry {
+        Triangle triangle;
+        Vector3 p;
+        bool far;  // p is a direction
+        bool used;
+        bool found;
+        EdgePlanes planes;
+
+        bool is_for(const Triangle& t, const Vector3& q, bool is_far) const;
+    };
+    const EdgePlanes* find(const Triangle& triangle, const Vector3& p, bool far);
+
+    std::vector<Entry> entries_;  // by a hash, the last one asked for; none before the first
+    std::size_t lost_ = 0;        // planes that gave way to others
+};
+
 /// Counts how often the cheap stage did not decide, and keeps what cost most to find.
 struct StageCounts {
     std::uint64_t wider = 0;  ///< tighter bounds were computed, in double or in 64 bits
     std::uint64_t exact = 0;  ///< exact arithmetic decided
     SideMemo sides;
+    EdgeMemo edges;
 };
 
 namespace detail {
