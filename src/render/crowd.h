@@ -43,7 +43,7 @@ class Crowd {
             if (around_.size() == kPoints) return std::nullopt;
             around = &around_.emplace_back(point);
         }
-        if (!around->cells && ++around->asked == kRaysForCells) {
+        if (around->asked < kRaysForCells && ++around->asked == kRaysForCells) {
             around->cells = std::make_unique<DirectionCells>(point);
             for (const ItemId item : items_) {
                 kernel_.add_to(*around->cells, item, boxes_of_items_[item]);
@@ -81,19 +81,25 @@ class Crowd {
         room_ -= std::min(room_, last_->list.rivals.size());
     }
 
-    /// What may block a way from the lit primitive to the light; none: ask all.
-    const std::vector<ItemId>* blockers(const typename Kernel::Shadow& shadow) {
-        if (!kernel_.lights_triangle(shadow)) return nullptr;
-        Listed<std::vector<ItemId>>& shade = shades_[{*shadow.from, shadow.light}];
-        if (is_due(shade)) {
-            for (const ItemId item : items_)
-                if (!kernel_.leaves_in_light(item, shadow)) shade.list.push_back(item);
-            room_ -= std::min(room_, shade.list.size());
-        }
-        return shade.listed ? &shade.list : nullptr;
+    /// Whether any item blocks the way, which `blocks` tells of one.
+    template <typename Blocks>
+    bool blocked(const typename Kernel::Shadow& shadow, Blocks&& blocks) {
+        if (surely_missed(shadow.ray)) return false;
+        if (usual_blocker_ && blocks(*usual_blocker_)) return true;
+        const auto blocks_now = [&](ItemId item) {
+            if (!blocks(item)) return false;
+            usual_blocker_ = item;
+            return true;
+        };
+        std::optional<std::span<const ItemId>> some;
+        if (shadow.light->kind != Light::Kind::kDirectional)
+            some = towards(shadow.light->location, -shadow.ray.direction());
+        if (const std::vector<ItemId>* const list = blockers(shadow))
+            if (!some || list->size() < some->size()) some = *list;
+        if (some) return std::any_of(some->begin(), some->end(), blocks_now);
+        return boxes_.visit(
+            shadow.ray, [&] { return shadow.end; }, blocks_now);
     }
-    /// The item that blocked last.
-    std::optional<ItemId> usual_blocker;
 
   private:
     // A list costs as much as some rays against all items.
@@ -123,12 +129,25 @@ class Crowd {
         return entry.listed = true;
     }
 
+    // What may block a way from the lit primitive to the light; none: ask all.
+    const std::vector<ItemId>* blockers(const typename Kernel::Shadow& shadow) {
+        if (!kernel_.lights_triangle(shadow)) return nullptr;
+        Listed<std::vector<ItemId>>& shade = shades_[{*shadow.from, shadow.light}];
+        if (is_due(shade)) {
+            for (const ItemId item : items_)
+                if (!kernel_.leaves_in_light(item, shadow)) shade.list.push_back(item);
+            room_ -= std::min(room_, shade.list.size());
+        }
+        return shade.listed ? &shade.list : nullptr;
+    }
+
     const Kernel& kernel_;
     std::span<const ItemId> items_;
     HullPlanes hull_;
     std::span<const Bounds3> boxes_of_items_;
     LeafBoxes boxes_;
     std::vector<Around> around_;
+    std::optional<ItemId> usual_blocker_;  // the last one
     std::size_t room_ = kRoom;
     Point3 eye_;
     std::map<PrimitiveId, Listed<Front>> fronts_;  // of rays from eye_, by the winner

@@ -185,23 +185,9 @@ class ExactSearch {
     }
     bool blocked_by_crowd(const typename Kernel::Shadow& shadow, const Node& leaf) {
         if constexpr (kHasCrowds) {
-            Crowd<Kernel>& crowd = crowd_of(leaf);
-            if (crowd.surely_missed(shadow.ray)) return false;
-            if (const auto usual = crowd.usual_blocker)
-                if (is_new(*usual) && kernel_.blocks(shadow, of_item(*usual))) return true;
-            const auto blocks = [&](ItemId item) {
-                if (!is_new(item) || !kernel_.blocks(shadow, of_item(item))) return false;
-                crowd.usual_blocker = item;
-                return true;
-            };
-            std::optional<std::span<const ItemId>> some;
-            if (shadow.light->kind != Light::Kind::kDirectional)
-                some = crowd.towards(shadow.light->location, -shadow.ray.direction());
-            if (const std::vector<ItemId>* const list = crowd.blockers(shadow))
-                if (!some || list->size() < some->size()) some = *list;
-            if (some) return std::any_of(some->begin(), some->end(), blocks);
-            return crowd.boxes().visit(
-                shadow.ray, [&] { return shadow.end; }, blocks);
+            return crowd_of(leaf).blocked(shadow, [&](ItemId item) {
+                return is_new(item) && kernel_.blocks(shadow, of_item(item));
+            });
         }
         return false;
     }

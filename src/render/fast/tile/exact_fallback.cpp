@@ -44,20 +44,10 @@ ExactFallback::Kernel::Shadow ExactFallback::shadow_ray(int x, int y, Slot lit,
 }
 
 bool ExactFallback::blocks_any(const Kernel::Shadow& ray, std::span<const Slot> leaf) const {
-    Crowd<Kernel>& crowd =
-        large_leaves_.try_emplace(leaf.data(), scene_, kernel_, leaf).first->second.crowd;
-    if (crowd.surely_missed(ray.ray)) return false;
-    const auto blocks_by = [&](PrimitiveId id) {
+    LargeLeaf& large = large_leaves_.try_emplace(leaf.data(), scene_, kernel_, leaf).first->second;
+    return large.crowd.blocked(ray, [&](PrimitiveId id) {
         return blocks(ray, id, kind_of(scene_.object(id).shape) == PrimitiveKind::kTriangle);
-    };
-    if (crowd.usual_blocker && blocks_by(*crowd.usual_blocker)) return true;
-    const std::vector<PrimitiveId>* const some = crowd.blockers(ray);
-    for (const PrimitiveId id : some ? std::span<const PrimitiveId>(*some) : crowd.items()) {
-        if (!blocks_by(id)) continue;
-        crowd.usual_blocker = id;
-        return true;
-    }
-    return false;
+    });
 }
 
 }  // namespace nuvo

@@ -66,7 +66,7 @@ class ExactFallback {
   private:
     struct LargeLeaf {
         LargeLeaf(const FastScene& scene, const Kernel& kernel, std::span<const Slot> slots)
-            : ids(ids_of(scene, slots)), crowd(kernel, ids) {}
+            : ids(ids_of(scene, slots)), crowd(kernel, scene.primitives(), ids) {}
         static std::vector<PrimitiveId> ids_of(const FastScene& scene,
                                                std::span<const Slot> slots) {
             std::vector<PrimitiveId> out;
