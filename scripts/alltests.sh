@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # The thesis' octree tests [thesis 5.7-5.8]: four scenes, both octree types, two profiles, and the
-# published figures beside ours, each time with the error of its picture. Leaves results.json, results.csv and the raw reports in a folder.
+# published figures beside ours, each time with the error of its picture. Leaves results.json, results.csv, the
+# raw reports and, where Python has what it takes, index.html in a folder.
 set -euo pipefail
 source "$(dirname -- "${BASH_SOURCE[0]}")/setup.sh"
 
@@ -10,6 +11,7 @@ usage: scripts/alltests.sh [flag]...
   --rep=N     repetitions of each scene and type (100, as the thesis)
   --quick     3 repetitions
   --base      the teapot, too: 15 repetitions where the others have 100, and in proportion
+  --no-look   neither planes and octrees of each scene nor the study of speed against error
   --res=W,H   size of the pictures (1920,1080, as the thesis)
   --out=DIR   where the results go (results/ in the project)
   -h          this list
@@ -21,7 +23,7 @@ fail() {
     exit 2
 }
 
-rep=100 base=no resolution=1920,1080 out=$nuvo_root/results
+rep=100 base=no look=yes resolution=1920,1080 out=$nuvo_root/results
 while [ $# -gt 0 ]; do
     case $1 in
         --rep | --res | --out)
@@ -32,6 +34,7 @@ while [ $# -gt 0 ]; do
         --res=*) resolution=${1#*=} ;;
         --out=*) out=${1#*=} ;;
         --quick) rep=3 ;;
+        --no-look) look=no ;;
         --base) base=yes ;;
         -h | --help) usage; exit 0 ;;
         *) usage >&2; fail "unknown flag $1" ;;
@@ -46,9 +49,9 @@ command -v python3 >/dev/null ||
 
 nuvo_install "${nuvo_packages[@]}"
 nuvo_build release nuvo
-mkdir -p "$out/raw"
+mkdir -p "$out/raw" "$out/look"
 out=$(cd -- "$out" && pwd)
-rm -f "$out"/raw/*.json
+rm -f "$out"/raw/*.json "$out"/look/* "$out"/study-*.json
 
 settings=("thesis --profile=thesis" "exact --profile=exact")
 scenes=(trianglemesh both concentric clumped)
@@ -92,9 +95,31 @@ for scene in "${scenes[@]}"; do
         done
     done
 done
+# What the pictures cost and what the octrees look like, the dearest ray of each, and speed against
+# error: for the page, at the size of a screen.
+look_at() {
+    local scene=$1 type=$2 name=$out/look/$1-$2 pixel
+    local flags=("--file=$nuvo_root/testfiles/$scene.x3d" --type="$type" --res=384,216 --rep=1 --quiet)
+    "$nuvo" "${flags[@]}" --planes="$name" --octree="$name-octree.json" --out="$name.png" \
+        --json="$name.json"
+    pixel=$(python3 "$nuvo_root/scripts/report/dearest_pixel.py" "$name-tests.npy")
+    "$nuvo" "${flags[@]}" --pixel="$pixel" --json="$name-ray.json"
+}
+nuvo=$nuvo_root/build/release/nuvo
+if [ $look = yes ]; then
+    for scene in "${scenes[@]}"; do
+        [ "$scene" != teapot ] || continue
+        [ ! -t 2 ] || printf '\r%-60s' "$scene: planes and octrees" >&2
+        for type in uniform nonuniform; do look_at "$scene" $type; done 2>/dev/null
+    done
+    [ ! -t 2 ] || printf '\r%-60s' "both: speed against error" >&2
+    "$nuvo" "--file=$nuvo_root/testfiles/both.x3d" --type=nonuniform --res=192,108 \
+        --rep=$((rep < 5 ? rep : 5)) --quiet "--study=$out/study-both.json"
+fi
 [ ! -t 2 ] || printf '\r%-60s\r' "" >&2
 
 commit=$(git -C "$nuvo_root" rev-parse --short HEAD 2>/dev/null || echo unknown)
 compiler=$(sed -n 's/^CMAKE_CXX_COMPILER:[^=]*=//p' "$nuvo_root/build/release/CMakeCache.txt")
 python3 "$nuvo_root/scripts/report/tables.py" "$out" --commit "$commit" \
     --compiler "$("$compiler" --version | head -n 1)" --priority "${priority[*]:-default}"
+"$nuvo_root/scripts/report.sh" "$out" || true  # says what is missing

@@ -5,7 +5,7 @@ set -euo pipefail
 source "$(dirname -- "${BASH_SOURCE[0]}")/setup.sh"
 
 libraries=(libboost-dev libboost-chrono-dev libboost-program-options-dev libnlopt-cxx-dev libpng-dev
-    zlib1g-dev libgeos-dev libhwy-dev)
+    zlib1g-dev libhwy-dev libgeos-c1v5) # libgeos-dev is of one architecture only
 if ! dpkg --print-foreign-architectures | grep -qx arm64; then
     echo "Please allow ARM64 packages as root: dpkg --add-architecture arm64" >&2
     exit 1
@@ -20,6 +20,7 @@ nuvo_quietly cmake -S "$nuvo_root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Relea
     -DNUVO_TESTS=OFF -DCMAKE_SYSTEM_NAME=Linux -DCMAKE_SYSTEM_PROCESSOR=aarch64 \
     -DCMAKE_CXX_COMPILER=$triple-g++ -DCMAKE_LIBRARY_ARCHITECTURE=$triple \
     -DCMAKE_FIND_ROOT_PATH=/usr/$triple -DCMAKE_FIND_ROOT_PATH_MODE_PROGRAM=NEVER \
+    -DGEOS_C_LIBRARY=/usr/lib/$triple/libgeos_c.so.1 -DGEOS_C_INCLUDE_DIR=/usr/include \
     -DBoost_DIR=/usr/lib/$triple/cmake/Boost-1.74.0 -DNLopt_DIR=/usr/lib/$triple/cmake/nlopt
 nuvo_watch_quietly "Building for ARM64" ninja -C "$build" nuvo
 

@@ -12,6 +12,8 @@ import platform
 import statistics
 import sys
 
+import pairs
+
 TYPES = ("uniform", "nonuniform")
 
 # Thesis 5.8, i5-2500K at 1920 x 1080: depth, voxels, intersection tests, voxel searches, seconds.
@@ -187,6 +189,41 @@ def checks(scene, ours, is_published_size):
                f"{ours[t]['seconds']:.3f} s against {published[t]['seconds']:.3f} s")
 
 
+def frame_times(reports):
+    """Build and trace, in the order of measurement."""
+    return [b + t for report in reports
+            for b, t in zip(report["build_seconds"], report["trace_seconds"])]
+
+
+def analysis(groups):
+    """Speed-ups by pairs, and the same against the same, whose interval must hold 1."""
+    speedups, twins = [], []
+    for (setting, scene, octree_type), reports in groups.items():
+        times = frame_times(reports)
+        twins += pairs.same_against_same(times)
+        if octree_type != "uniform" or (setting, scene, "nonuniform") not in groups:
+            continue
+        row = {"setting": setting, "scene": scene,
+               **pairs.ratio(times, frame_times(groups[setting, scene, "nonuniform"]))}
+        published = {t: published_figures(scene, t)["seconds"] for t in TYPES}
+        row["published"] = published["uniform"] / published["nonuniform"]
+        speedups.append(row)
+    same = pairs.ratio(*zip(*twins)) if twins else None
+    return {"speedups": speedups, "same_against_same": same}
+
+
+def looks(folder):
+    """Reports of the planes, octrees and single rays in DIR/look, by the name of their file."""
+    return {path.stem: json.loads(path.read_text(encoding="utf-8"))
+            for path in sorted((folder / "look").glob("*.json"))
+            if not path.stem.endswith("-octree")}
+
+
+def studies(folder):
+    return {path.stem.removeprefix("study-"): json.loads(path.read_text(encoding="utf-8"))
+            for path in sorted(folder.glob("study-*.json"))}
+
+
 def write_results(folder, results, groups, environment):
     columns = ["setting", "scene", "type"]
     columns += list(next(iter(results.values())))
@@ -200,6 +237,9 @@ def write_results(folder, results, groups, environment):
         "published": {s: {t: published_figures(s, t) for t in TYPES} for s in PUBLISHED},
         "results": [{"setting": key[0], "scene": key[1], "type": key[2], **figures,
                      "runs": groups[key]} for key, figures in results.items()],
+        "analysis": analysis(groups),
+        "looks": looks(folder),
+        "studies": studies(folder),
     }
     text = json.dumps(document, indent=1, allow_nan=False) + "\n"
     (folder / "results.json").write_text(text, encoding="utf-8")
