@@ -29,10 +29,10 @@ constexpr std::string_view kPatchText =
 // no area and are left out.
 constexpr int kSteps = 20;
 
-// The thesis shows it from above (figure 32). Height of the camera over the lid: from there 695 x 410
-// = 284,950 rays of 1920 x 1080 enter the published program's box of the mesh, which reaches as far
-// to either side of the mean of the corners as the furthest of them. 284,970 rays follow from the
-// thesis' counts.
+// The thesis shows it from above (figure 32). Height of the camera over the lid: from there 695 x
+// 410 = 284,950 rays of 1920 x 1080 enter the published program's box of the mesh, which reaches as
+// far to either side of the mean of the corners as the furthest of them. 284,970 rays follow from
+// the thesis' counts.
 constexpr double kCameraHeight = 11.224;
 
 // All control points have at most five decimals, so that this makes them whole numbers.

@@ -7,8 +7,8 @@
 
 namespace nuvo::x3d {
 
-/// What stands in for fields that a file leaves out, and how a few that it gives are taken. As made:
-/// the X3D standard.
+/// What stands in for fields that a file leaves out, and how a few that it gives are taken. As
+/// made: the X3D standard.
 struct Defaults {
     double field_of_view_rad = Camera{}.field_of_view_rad;
     double light_ambient_intensity = 0;
