@@ -147,9 +147,13 @@ void write_x3d(const Octree& octree, const std::string& title, const Sink& sink)
         frames[static_cast<std::size_t>(depth)][voxel.item_count == 0 ? 1 : 0].add(
             voxel.voxel.bounds);
     });
-    for (std::size_t depth = 0; depth < frames.size(); ++depth) {
-        const double deepest = static_cast<double>(std::max<std::size_t>(2, frames.size()) - 1);
-        const Rgb8 color = image::viridis(static_cast<double>(depth) / deepest);
+    // Colors from the first depth that has voxels to the last.
+    const auto has_voxels = [](const auto& pair) { return !pair[0].empty() || !pair[1].empty(); };
+    const auto first = static_cast<std::size_t>(
+        std::find_if(frames.begin(), frames.end(), has_voxels) - frames.begin());
+    for (std::size_t depth = first; depth < frames.size(); ++depth) {
+        const double span = static_cast<double>(std::max(first + 1, frames.size() - 1) - first);
+        const Rgb8 color = image::viridis(static_cast<double>(depth - first) / span);
         for (const bool is_empty : {false, true}) {
             const Wireframe& frame = frames[depth][is_empty ? 1 : 0];
             if (!frame.empty())

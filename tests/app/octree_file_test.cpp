@@ -95,6 +95,18 @@ TEST(OctreeFile, X3dHoldsALineForEachVoxelAndAShapeForEachDepth) {
     EXPECT_TRUE(again.camera_given);
 }
 
+TEST(OctreeFile, ColorsRunFromTheLeastDepthToTheGreatest) {
+    const Octree octree = octree_of("both.x3d", OctreeType::kUniform);
+    const std::string text = text_of("a.x3d", octree);
+    const std::size_t first = text.find("emissiveColor=\"0.267 0.004 0.329\"");  // viridis(0)
+    const std::size_t last = text.find("emissiveColor=\"0.992 0.906 0.145\"");   // viridis(1)
+    ASSERT_NE(first, std::string::npos);
+    ASSERT_NE(last, std::string::npos);
+    EXPECT_EQ(text.rfind("<Shape DEF=", first), text.find("<Shape DEF="));
+    EXPECT_NE(text.rfind("DEF=\"depth-" + std::to_string(octree.depth() - 1), last),
+              std::string::npos);
+}
+
 TEST(OctreeFile, ATitleCannotBreakTheFile) {
     const std::string title = "a<b>\"&\n\xff.x3d";
     EXPECT_EQ(x3d::read_text(text_of("a.x3d", one_voxel(), title), "o").shape_count, 1u);

@@ -30,7 +30,9 @@ std::vector<Profile> some_profiles() {
     Profile nudged = plain;
     nudged.step = 0.5;
     nudged.bias = 0.001;
-    return {exact_profile(), nonuniform, descent, plain, nudged, thesis_profile()};
+    Profile one_leaf = exact_profile();  // of many items, what rays have found is kept
+    one_leaf.max_objects = 1'000'000;
+    return {exact_profile(), nonuniform, descent, plain, nudged, one_leaf, thesis_profile()};
 }
 
 // The pixel's color, its costs and its sums are those of the picture and its planes.

