@@ -210,27 +210,43 @@ ExitCode compare_command(const Options& options) {
     return furthest.equal() ? kDone : kPicturesDiffer;
 }
 
+namespace {
+
+std::string answer_bytes(const Scene& scene, const Options& options, std::span<const Ray> rays,
+                         std::span<const RayAnswer> answers) {
+    const AnswerParts& parts = options.answer_parts;
+    std::vector<HitPlace> places;
+    if (parts.point || parts.normal) places = hit_places(scene, rays, answers);
+    const bool is_array = options.out && fs::path(*options.out).extension() == ".npy";
+    return is_array ? answers_npy(answers, places, parts) : answers_text(answers, places, parts);
+}
+
+}  // namespace
+
 ExitCode rays_command(const Options& options) {
     const LoadedScene loaded = load(options);
+    const StageStopwatch read;
     const std::vector<Ray> rays = read_rays(*options.rays);
+    const double read_wall_seconds = read.wall_seconds();
     std::vector<fs::path> outputs;
     if (options.out) outputs.emplace_back(*options.out);
     check_outputs({loaded.path, *options.rays}, with_json(outputs, options));
 
     Report report = begin_report(loaded);
+    report.parse_wall_seconds += read_wall_seconds;
     std::vector<RayAnswer> answers;
     report.passes.push_back(run_rays(loaded.scene, options, rays, answers));
     report.rays = rays.size();
     report.hits = static_cast<std::size_t>(
         std::count_if(answers.begin(), answers.end(), [](const RayAnswer& a) { return a.hit; }));
 
-    const std::string text = answers_text(answers);
     const StageStopwatch write;
+    const std::string bytes = answer_bytes(loaded.scene, options, rays, answers);
     if (options.out) {
-        image::write_file_atomically(*options.out, text);
+        image::write_file_atomically(*options.out, bytes);
         report.picture = *options.out;
     } else {
-        std::cout << text;
+        std::cout << bytes;
     }
     report.write_seconds = write.seconds();
     report.write_wall_seconds = write.wall_seconds();

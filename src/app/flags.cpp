@@ -58,6 +58,22 @@ Point3 parse_point(std::string_view text) {
     return point;
 }
 
+void apply_answers(Options& options, const std::string& value) {
+    options.answer_parts = {};
+    std::string_view text = value;
+    while (true) {
+        const std::string_view part = text.substr(0, text.find(','));
+        if (part == "point")
+            options.answer_parts.point = true;
+        else if (part == "normal")
+            options.answer_parts.normal = true;
+        else
+            throw UsageError("must be point, normal or point,normal");
+        if (part.size() == text.size()) return;
+        text.remove_prefix(part.size() + 1);
+    }
+}
+
 void apply_samples(Options& options, const std::string& value) {
     options.samples = parse_integer(value, 1, kMaxSamples,
                                     "must be a whole number 1 to " + std::to_string(kMaxSamples));
@@ -321,8 +337,13 @@ std::vector<Flag> profile_flags() {
 std::vector<Flag> output_flags() {
     return {
         {"rays", "--rays", "FILE", "",
-         "answer the rays of FILE (a line each: ox oy oz dx dy dz) and draw nothing",
+         "answer the rays of FILE and draw nothing: a line each, ox oy oz dx dy dz, or a NumPy "
+         "array "
+         "of n x 6; answers as an array where --out ends in .npy",
          [](Options& o, const std::string& v) { o.rays = non_empty(v, "a file name"); }},
+        {"answers", "--answers", "point|normal|point,normal", "",
+         "what --rays tells of a hit besides: where it is, and the shape's unit normal there",
+         apply_answers},
         {"study", "--study", "[=FILE]", "",
          "render with each combination of answers worth comparing, --rep times, and print speed "
          "against error; write every figure to FILE as JSON",

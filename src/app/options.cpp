@@ -274,6 +274,9 @@ void check_combinations(const Options& options, const std::map<std::string, std:
         for (const char* other : {"compare", "rays", "showoctree", "out", "json"})
             if (is_given(other))
                 throw UsageError(std::string("--describe draws nothing: leave ") + other + " out");
+    if (is_given("answers") && !options.rays)
+        throw UsageError("--answers=" + given.at("answers") +
+                         ": there are no rays to answer (add --rays=FILE)");
     check_streams(options);
     check_samples(options, given);
     if (options.out && !options.rays && !image::picture_format(*options.out))

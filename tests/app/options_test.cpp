@@ -153,6 +153,7 @@ TEST(Options, EveryListedWordIsTaken) {
             std::vector<std::string> arguments{"--" + flag.name + "=" +
                                                flag.value.substr(at, end - at)};
             if (flag.name == "midpoint") arguments.push_back("--type=nonuniform");
+            if (flag.name == "answers") arguments.push_back("--rays=r");
             if (flag.name == "isa") arguments.push_back("--profile=fast");
             if (!supported(arguments[0])) {
                 EXPECT_TRUE(contains(usage_error(arguments), "this machine has"));

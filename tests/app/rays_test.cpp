@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cfloat>
+#include <cmath>
 #include <limits>
 #include <string>
+#include <vector>
 
 namespace nuvo::app {
 namespace {
@@ -43,12 +45,50 @@ TEST(Rays, AnEmptyFileHasNoRays) {
 }
 
 TEST(Rays, MalformedLinesAreNamedByNumber) {
-    for (const char* bad : {"0 0 0 0 0", "0 0 0 0 0 1 1", "0 0 0 0 0 x", "0 0 0 0 0 nan",
-                            "0 0 inf 0 0 1", "0 0 1e400 0 0 1", "0 0 0 0 0 0", "0 0 0 0 -0 0",
-                            "0,0,0,0,0,1", "# comment", "0 0 0 0 0 1m", "0x1 0 0 0 0 1"}) {
+    for (const char* bad :
+         {"0 0 0 0 0", "0 0 0 0 0 1 1", "0 0 0 0 0 x", "0 0 0 0 0 nan", "0 0 inf 0 0 1",
+          "0 0 1e400 0 0 1", "0 0 0 0 0 0", "0 0 0 0 -0 0", "0,,0,0,0,0,1", ",0,0,0,0,0,1",
+          "0,0,0,0,0,1,", "0 0 0 0 0 # 1", "0;0 0 0 0 1", "0 0 0 0 0 1m", "0x1 0 0 0 0 1"}) {
         EXPECT_EQ(error_of(std::string("0 0 0 0 0 1\n\n") + bad + "\n").rfind("R: line 3: ", 0), 0u)
             << bad;
     }
+}
+
+TEST(Rays, CommasAndCommentsAreTaken) {
+    const auto rays = parse_rays(
+        "# ox,oy,oz,dx,dy,dz\n0,1,2,3,4,5\n0, 1 ,2\t3 ,4 5 # a remark\n  # 1 2 3\n#", "R");
+    ASSERT_EQ(rays.size(), 2u);
+    for (const Ray& ray : rays) {
+        EXPECT_EQ(ray.origin, (Point3{0, 1, 2}));
+        EXPECT_EQ(ray.direction, (Vector3{3, 4, 5}));
+    }
+}
+
+/// An array of NumPy by hand: version 1, a header of 118 bytes.
+std::string array_file(std::string dictionary, const std::vector<double>& values) {
+    dictionary.resize(117, ' ');
+    std::string bytes = std::string("\x93NUMPY\x01\0v\0", 10) + dictionary + "\n";
+    for (const double value : values)
+        bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+    return bytes;
+}
+
+TEST(Rays, AnArrayOfNumPyIsRead) {
+    const std::string shape = "{'descr': '<f8', 'fortran_order': False, 'shape': (2, 6), }";
+    std::vector<double> values{0, 1, 2, 3, 4, 5, 0.1, -0.0, 1e300, 0, 0, -1};
+    const auto rays = parse_rays(array_file(shape, values), "R");
+    ASSERT_EQ(rays.size(), 2u);
+    EXPECT_EQ(rays[0].direction, (Vector3{3, 4, 5}));
+    EXPECT_EQ(rays[1].origin, (Point3{0.1, 0, 1e300}));
+    values[5] = values[3] = values[4] = 0;
+    EXPECT_EQ(error_of(array_file(shape, values)), "R: row 0: the direction is zero");
+    values[5] = 1;
+    values[7] = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(error_of(array_file(shape, values)), "R: row 1: a number is not finite");
+    EXPECT_EQ(
+        error_of(array_file("{'descr': '<f8', 'fortran_order': False, 'shape': (12,), }", values)),
+        "R: array: is not of n x 6 numbers, a ray a row");
+    EXPECT_EQ(error_of(array_file(shape, {1, 2, 3})).rfind("R: array: holds 24 bytes", 0), 0u);
 }
 
 TEST(Rays, AFileThatCannotBeReadIsNamed) {
@@ -63,6 +103,28 @@ TEST(Rays, AnswersHaveSeventeenDigits) {
         {true, 0, 0, 2},
     };
     EXPECT_EQ(answers_text(answers), "1 3 7 0.10000000000000001\n0 -1 -1 inf\n1 0 0 2\n");
+}
+
+TEST(Rays, AnswersAreRecordsForNumPy) {
+    const RayAnswer answers[] = {{true, 3, 7, 0.1},
+                                 {false, -1, -1, std::numeric_limits<double>::infinity()}};
+    const HitPlace places[] = {{{1, 2, 3}, {0, 0, 1}}, {{4, 5, 6}, {0, 1, 0}}};
+    std::string dictionary =
+        "{'descr': [('hit', '|b1'), ('shape', '<i8'), ('triangle', '<i8'), ('t', '<f8'), "
+        "('normal', '<f8', (3,))], 'fortran_order': False, 'shape': (2,), }";
+    dictionary.resize(181, ' ');  // 192 bytes with what stands before and behind
+    std::string expected = std::string("\x93NUMPY\x01\0\xb6\0", 10) + dictionary + "\n";
+    const auto put = [&expected](auto value) {
+        expected.append(reinterpret_cast<const char*>(&value), sizeof value);
+    };
+    for (int i = 0; i < 2; ++i) {
+        put(answers[i].hit);
+        put(answers[i].shape);
+        put(answers[i].triangle);
+        put(answers[i].t);
+        for (const double x : {places[i].normal.x, places[i].normal.y, places[i].normal.z}) put(x);
+    }
+    EXPECT_EQ(answers_npy(answers, places, {false, true}), expected);
 }
 
 }  // namespace

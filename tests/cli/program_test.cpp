@@ -340,6 +340,34 @@ TEST_F(Program, RaysAreAnsweredLineForLine) {
     EXPECT_FALSE(exists("a.bmp"));
 }
 
+TEST_F(Program, RaysAreToldWhereTheyHitAndOnWhichSide) {
+    // A ball moved and stretched to semi-axes 2, 1, 1 around 5 0 0, and a triangle facing +z.
+    put("a.x3d",
+        "<X3D version='3.0'><Scene><Shape><Sphere radius='2'/></Shape>"
+        "<Transform translation='5 0 0' scale='2 1 1'><Shape><Sphere/></Shape></Transform>"
+        "<Shape><IndexedFaceSet coordIndex='0 1 2 -1'>"
+        "<Coordinate point='20 0 1, 24 0 1, 20 4 1'/></IndexedFaceSet></Shape></Scene></X3D>");
+    put("rays",
+        "0,0,10, 0,0,-1\n"   // the sphere's pole
+        "5,0,10, 0,0,-4\n"   // the ellipsoid's
+        "21,1,10, 0,0,-1\n"  // the triangle
+        "50,0,10, 0,0,-1 # none\n");
+    for (const char* profile : {"--profile=exact", "--profile=fast"}) {
+        const Outcome outcome = run({"a.x3d", "--rays=rays", "--answers=point,normal", profile});
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        EXPECT_EQ(outcome.out,
+                  "1 0 0 8 0 0 2 0 0 1\n1 1 0 2.25 5 0 1 0 0 1\n1 2 0 9 21 1 1 0 0 1\n"
+                  "0 -1 -1 inf nan nan nan nan nan nan\n");
+        EXPECT_EQ(run({"a.x3d", "--rays=-", "--answers=normal", profile}, "rays").out.substr(0, 14),
+                  "1 0 0 8 0 0 1\n");
+    }
+    ASSERT_EQ(run({"a.x3d", "--rays=rays", "--out=answers.npy"}).exit_code, 0);
+    EXPECT_EQ(content("answers.npy").substr(0, 6), "\x93NUMPY");
+    EXPECT_EQ(content("answers.npy").size(), 192u + 4 * 25);
+    expect_refused({"a.x3d", "--answers=point"}, 2, {"--answers=point", "--rays"});
+    expect_refused({"a.x3d", "--rays=rays", "--answers=color"}, 2, {"--answers=color", "normal"});
+}
+
 TEST_F(Program, AShapeThatDrawsNothingStillCounts) {
     put("a.x3d",
         "<X3D version='3.0'><Scene><Shape/><Shape DEF='S'><Sphere/></Shape>"

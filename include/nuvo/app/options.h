@@ -30,6 +30,12 @@ struct Pixel {
     int y = 0;
 };
 
+/// What --rays tells beside the hit itself.
+struct AnswerParts {
+    bool point = false;
+    bool normal = false;
+};
+
 /// What the user typed, checked. Paths are as typed.
 struct Options {
     std::string file = "testfiles/trianglemesh";  ///< .x3d may be missing
@@ -51,6 +57,7 @@ struct Options {
     x3d::Limits limits;
     int max_side_pixels = kMaxSidePixels;
     std::optional<std::string> rays;
+    AnswerParts answer_parts;  ///< of the rays
     std::optional<std::string> out;
     std::optional<std::string> json;
     bool study = false;
