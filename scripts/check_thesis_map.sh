@@ -13,7 +13,7 @@ fault() {
 }
 
 # Every test as Suite.Name.
-tests=$(find tests -name '*_test.cpp' -exec cat {} + | tr '\n' ' ' |
+tests=$(find tests study -name '*_test.cpp' -exec cat {} + | tr '\n' ' ' |
     grep -oE 'TEST(_F|_P)?\( *[A-Za-z0-9_]+, *[A-Za-z0-9_]+ *\)' |
     sed -E 's/TEST(_F|_P)?\( *([A-Za-z0-9_]+), *([A-Za-z0-9_]+) *\)/\2.\3/')
 # Fixtures under another name: using Program = ProgramTest.

@@ -23,10 +23,14 @@ Profile thesis_profile() {
     return profile;
 }
 
-Profile exact_profile() { return {}; }
+Profile exact_profile() {
+    Profile profile;
+    profile.midpoint = MidpointChoice::kSweep;  // docs/midpoint-study.md
+    return profile;
+}
 
 Profile fast_profile() {
-    Profile profile;
+    Profile profile = exact_profile();
     profile.tracer = TracerChoice::kTiles;
     profile.walk = WalkChoice::kDescent;
     return profile;

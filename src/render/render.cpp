@@ -35,6 +35,15 @@ ThesisCosts thesis_costs(const Scene& scene, const Primitives& primitives) {
     return {shapes, static_cast<double>(scene.lights.size()), primitives.item_count()};
 }
 
+// In tests of a leaf item: a whole shape takes as many as it has primitives, on average.
+CalibratedCosts calibrated_costs(const Primitives& primitives) {
+    CalibratedCosts costs;
+    if (primitives.item_count() > 0)
+        costs.step *= static_cast<double>(primitives.item_count()) /
+                      static_cast<double>(primitives.sources.size());
+    return costs;
+}
+
 // Rounded to float. g++ 12 leaves the rounding out where several numbers go to float and back side
 // by side, unless something stands between.
 Point3 in_float(const Point3& p) {
@@ -162,6 +171,7 @@ Octree build_tree(const Scene& scene, const Primitives& primitives, const Profil
             boxes = published_boxes;
         }
     } else {
+        options.worth = calibrated_costs(primitives);
         options.midpoint = shrinking(options.midpoint);
         options.fallback = shrinking(spatial_midpoint);
         options.max_references = reference_budget(primitives.item_count());

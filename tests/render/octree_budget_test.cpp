@@ -91,6 +91,31 @@ TEST(OctreeBudget, AWideGroundCostsLittle) {
     }
 }
 
+double tests_per_ray_of_whole_shapes(OctreeType type, CostChoice costs) {
+    const Scene scene = x3d::read_file(NUVO_SOURCE_DIR "/testfiles/trianglemesh.x3d");
+    Profile profile = exact_profile();
+    profile.type = type;
+    profile.costs = costs;
+    profile.leaves = LeafContent::kShapes;
+    const Primitives primitives = flatten(scene, profile.leaves);
+    const Octree octree = build_tree(scene, primitives, profile);
+    const TraceCounts counts = count_events(scene, primitives, octree, profile, {192, 108});
+    return static_cast<double>(counts.intersection_tests) /
+           static_cast<double>(counts.primary_rays);
+}
+
+// The planes of test 1's grid are there to be found.
+TEST(Sweep, PartsTheGridOfTest1) {
+    EXPECT_GT(tests_per_ray_of_whole_shapes(OctreeType::kUniform, CostChoice::kThesis), 8);
+    EXPECT_LT(tests_per_ray_of_whole_shapes(OctreeType::kNonuniform, CostChoice::kThesis), 1.1);
+}
+
+// An octahedron costs eight tests: 91 of them were tested a ray where it was priced as one.
+TEST(CalibratedCosts, PriceAWholeShapeByItsPrimitives) {
+    EXPECT_LT(tests_per_ray_of_whole_shapes(OctreeType::kUniform, CostChoice::kCalibrated), 20);
+    EXPECT_LT(tests_per_ray_of_whole_shapes(OctreeType::kNonuniform, CostChoice::kCalibrated), 8);
+}
+
 // Planes on faces list an object on both sides (14.4 tests a ray); planes a few ulp beside them
 // make voxels so thin that the published step no longer moves, and objects are lost.
 TEST(Sweep, KeepsClearOfFacesUnderThePublishedWalk) {
