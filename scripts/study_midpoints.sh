@@ -20,11 +20,11 @@ fail() {
     exit 2
 }
 
-resolution=480,270 rounds=7 rays=20000 count=1000 voxels=1000 docs=
+resolution=480,270 rounds=7 rays=20000 count=1000 voxels=1000 floors='8 30 125 600 2500' docs=
 out=$nuvo_root/results/midpoints build=
 for argument in "$@"; do
     case $argument in
-        --quick) resolution=240,135 rounds=3 rays=5000 voxels=400 ;;
+        --quick) resolution=240,135 rounds=3 rays=5000 voxels=400 floors='30 600' ;;
         --out=*) out=${argument#*=} ;;
         --build=*) build=${argument#*=} ;;
         --docs) docs=1 ;;
@@ -52,7 +52,7 @@ for family in aisles drift stadium sticks sizes; do
     done
 done
 # A ball on ever wider floors: the stadium as a mesh.
-for width in 8 30 125 600 2500; do
+for width in $floors; do
     "$generator" floor --count=$width --out="$out/scenes/floor-$width.x3d"
     scenes+=("floor-$width")
 done
@@ -71,12 +71,13 @@ measure() {  # SETTING SCENE [option]...
 timed=spatial,median,published,mlsl-lds-sbplx,octree-r,eq19-voxel,sweep,eight-child,look-ahead,hybrid,pruned
 for scene in "${scenes[@]}"; do
     echo "$scene"
-    case $scene in floor-*) ;; *)
+    case $scene in floor-* | *-[0134]) ;; *)
         # Counts of every method, alone, and how far each is from the optimum.
         measure alone "$scene" --rounds=0 --gap=$voxels ;;
     esac
     # As the program builds, timed, beside the other structures.
-    measure program "$scene" --in-program --rounds=$rounds --methods=$timed --others
+    case $scene in floor-*) times=1 ;; *) times=$rounds ;; esac
+    measure program "$scene" --in-program --rounds=$times --methods=$timed --others
 done
 for scene in trianglemesh both concentric clumped; do
     measure thesis "$scene" --rounds=0 --leaves=shapes --costs=thesis
