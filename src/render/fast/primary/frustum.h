@@ -106,6 +106,7 @@ class Frustum {
                 select(upper, OctantFloats(0.5F * (b + c)), OctantFloats(0.5F * (a + b)));
             boxes.half[axis] =
                 select(upper, OctantFloats(0.5F * (c - b)), OctantFloats(0.5F * (b - a)));
+            boxes.distance[axis] = abs(boxes.middle[axis]);
         }
         const OctantFloats zero(0.0F);
         const OctantFloats one(1.0F);
@@ -158,6 +159,7 @@ class Frustum {
     struct Boxes {
         OctantFloats middle[3];
         OctantFloats half[3];
+        OctantFloats distance[3];  // |middle|
     };
 
     static Vector3 abs_of(const Vector3& v) {
@@ -170,15 +172,20 @@ class Frustum {
         Affine() = default;
         Affine(const Vector3& f, const Vector3& size, const Point3& eye, double reach) {
             double constant = 0;
-            double terms = 0;
+            double of_eye = 0;
+            double most = 0;
             for (int axis = 0; axis < 3; ++axis) {
+                const double term = std::fabs(size[axis]);
                 constant -= f[axis] * eye[axis];
-                terms += std::fabs(size[axis]) * (reach + std::fabs(eye[axis]));
+                of_eye += term * std::fabs(eye[axis]);
+                most += term * (reach + std::fabs(eye[axis]));
                 f_[axis] = static_cast<float>(f[axis]);
+                error_[axis] = rounded_up(kRoundings * kFloatRoundoff * term);
+                spread_[axis] = std::fabs(f_[axis]) + error_[axis];
             }
             constant_ = static_cast<float>(constant);
-            error_ = rounded_up(kRoundings * kFloatRoundoff * terms + kFloatUnderflow);
-            usable_ = terms < kLargest;
+            constant_error_ = rounded_up(kRoundings * kFloatRoundoff * of_eye + kFloatUnderflow);
+            usable_ = most < kLargest;
         }
         /// Whether no sum is beyond floats.
         bool usable() const { return usable_; }
@@ -188,22 +195,26 @@ class Frustum {
                 mul_add(boxes.middle[1], OctantFloats(f_[1]),
                         mul_add(boxes.middle[2], OctantFloats(f_[2]), OctantFloats(constant_))));
         }
-        /// With the errors of both.
+        /// With the errors of both, in proportion to the boxes' own coordinates.
         HWY_INLINE OctantFloats spread(const Boxes& boxes) const {
-            return mul_add(boxes.half[0], OctantFloats(std::fabs(f_[0])),
-                           mul_add(boxes.half[1], OctantFloats(std::fabs(f_[1])),
-                                   mul_add(boxes.half[2], OctantFloats(std::fabs(f_[2])),
-                                           OctantFloats(error_))));
+            OctantFloats sum(constant_error_);
+            for (int axis = 0; axis < 3; ++axis)
+                sum = mul_add(boxes.half[axis], OctantFloats(spread_[axis]),
+                              mul_add(boxes.distance[axis], OctantFloats(error_[axis]), sum));
+            return sum;
         }
 
       private:
-        // Fifteen, docs/numerics.md; the last is for what double arithmetic rounds.
-        static constexpr double kRoundings = 16;
+        // Fifteen, docs/numerics.md; one for what double arithmetic rounds, one for the bound's
+        // own.
+        static constexpr double kRoundings = 17;
         static constexpr double kLargest = 0x1p90;
 
         float f_[3];
+        float error_[3];
+        float spread_[3];
         float constant_;
-        float error_;
+        float constant_error_;
         bool usable_;
     };
 

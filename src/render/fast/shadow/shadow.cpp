@@ -50,7 +50,9 @@ class ShadowTracer {
     static constexpr std::size_t kMostOpenOfBeam = 128;
     static constexpr std::ptrdiff_t kMostOpenOfPoint = 32;
     // And where a beam meets more items than this.
-    static constexpr std::size_t kMostTests = 1024;
+    static constexpr std::size_t kMostTests = 512;
+    // Where more items of one leaf come near a ray what other rays have found of them is asked.
+    static constexpr int kCrowded = 32;
 
     HWY_NOINLINE void walk(ShadowBlock& block, std::uint32_t lanes) {
         const ShadowTables& tables = context_.job.tables;
@@ -77,11 +79,9 @@ class ShadowTracer {
             tables.scene().octree(), beam_to_light(context_.table.light, low, high, slack),
             [](float) { return false; },
             [&](const std::uint32_t* items, std::uint32_t count, float) HWY_ATTR {
-                for (std::uint32_t i = 0; i < count && !too_many(); ++i) {
-                    if (!tables.hides(light_, items[i]) || mailbox.seen(items[i])) continue;
-                    ++tests;
-                    block.test(context_, items[i], lanes);
-                }
+                for (std::uint32_t i = 0; i < count && !too_many(); ++i, ++tests)
+                    if (tables.hides(light_, items[i]) && !mailbox.seen(items[i]))
+                        block.test(context_, items[i], lanes);
                 return (block.waiting() & lanes) == 0 || too_many();
             });
         if (!too_many()) return;
@@ -109,12 +109,15 @@ class ShadowTracer {
         bool blocked = fallback_.blocks(ray, lit);
         mailbox.seen(lit);
         const auto leaf = [&](const std::uint32_t* items, std::uint32_t count) {
-            if (count >= ExactFallback::kLargeLeaf)
-                return fallback_.blocks_any(ray, {items, count});
-            return std::any_of(items, items + count, [&](Slot item) {
-                return tables.hides(light_, item) && !mailbox.seen(item) &&
-                       fallback_.blocks(ray, item);
-            });
+            int near = 0;
+            for (std::uint32_t i = 0; i < count; ++i) {
+                if (!tables.hides(light_, items[i]) || mailbox.seen(items[i]) ||
+                    !fallback_.comes_near(ray, items[i]))
+                    continue;
+                if (++near > kCrowded) return fallback_.blocks_any(ray, {items, count});
+                if (fallback_.blocks(ray, items[i])) return true;
+            }
+            return false;
         };
         if (!blocked)
             blocked = SegmentWalk(ray.ray, ray.end, scene.frame()).any(scene.octree(), leaf);

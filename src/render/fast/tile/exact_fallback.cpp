@@ -46,7 +46,8 @@ ExactFallback::Kernel::Shadow ExactFallback::shadow_ray(int x, int y, Slot lit,
 bool ExactFallback::blocks_any(const Kernel::Shadow& ray, std::span<const Slot> leaf) const {
     LargeLeaf& large = large_leaves_.try_emplace(leaf.data(), scene_, kernel_, leaf).first->second;
     return large.crowd.blocked(ray, [&](PrimitiveId id) {
-        return blocks(ray, id, kind_of(scene_.object(id).shape) == PrimitiveKind::kTriangle);
+        const bool triangle = kind_of(scene_.object(id).shape) == PrimitiveKind::kTriangle;
+        return (!triangle || box_comes_near(ray, id)) && kernel_.blocks(ray, {id, id + 1});
     });
 }
 

@@ -45,11 +45,16 @@ class ExactFallback {
     /// Whether `occluder` stands on that ray. Most that floats leave open does not even come near,
     /// which a box tells at less cost.
     bool blocks(const Kernel::Shadow& ray, Slot occluder) const {
-        return blocks(ray, scene_.id(occluder), occluder < scene_.triangle_end());
+        const PrimitiveId id = scene_.id(occluder);
+        return comes_near(ray, occluder) && kernel_.blocks(ray, {id, id + 1});
     }
-    /// Whether any item of a leaf of the octree does. Keeps what large leaves tell. [crowd.h]
+    /// Whether `occluder` may do so, by its box.
+    bool comes_near(const Kernel::Shadow& ray, Slot occluder) const {
+        return occluder >= scene_.triangle_end() || box_comes_near(ray, scene_.id(occluder));
+    }
+    /// Whether any item of a leaf of the octree does; for leaves of which many come near the ray:
+    /// what some rays have found is kept. [crowd.h]
     bool blocks_any(const Kernel::Shadow& ray, std::span<const Slot> leaf) const;
-    static constexpr std::size_t kLargeLeaf = 512;
 
     /// The pixel's color, given what it shows (kNoSlot: the background) and which lights are not
     /// blocked (bit i of the predicate; lights that do not cast shadows are asked for, too).
@@ -79,9 +84,8 @@ class ExactFallback {
         Crowd<Kernel> crowd;
     };
 
-    bool blocks(const Kernel::Shadow& ray, PrimitiveId id, bool triangle) const {
-        return (!triangle || may_meet(ray.ray, ray.end, scene_.primitives().item_boxes[id])) &&
-               kernel_.blocks(ray, {id, id + 1});
+    bool box_comes_near(const Kernel::Shadow& ray, PrimitiveId id) const {
+        return may_meet(ray.ray, ray.end, scene_.primitives().item_boxes[id]);
     }
 
     const FastScene& scene_;
