@@ -62,6 +62,7 @@ Report begin_report(const LoadedScene& loaded) {
     report.file = loaded.name;
     report.scene = count(loaded.scene);
     report.parse_seconds = loaded.parse_seconds;
+    report.warnings = loaded.scene.warnings;
     report.parse_wall_seconds = loaded.parse_wall_seconds;
     return report;
 }

@@ -305,6 +305,7 @@ Resolution Options::traced_resolution() const {
 Options parse(const std::vector<std::string>& arguments) {
     const std::map<std::string, std::string> given = read_tokens(arguments);
     Options options;
+    options.arguments = arguments;
     options.profile = exact_profile();
     options.help = given.count("help") != 0;
     options.version = given.count("version") != 0;

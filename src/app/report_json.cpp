@@ -134,6 +134,13 @@ void write_difference(JsonWriter& json, const image::Difference& d) {
     json.member("psnr_db", d.psnr_db);  // null for equal pictures
 }
 
+void write_warnings(JsonWriter& json, const std::vector<std::string>& warnings) {
+    json.key("warnings");
+    json.begin_array();
+    for (const std::string& warning : warnings) json.value(warning);
+    json.end_array();
+}
+
 void write_pairs(JsonWriter& json, const std::vector<Pair>& pairs) {
     json.key("pairs");
     json.begin_array();
@@ -153,22 +160,28 @@ std::string report_json(const Options& options, const Report& report) {
     JsonWriter json;
     json.begin_object();
     json.member("nuvo", NUVO_VERSION);
+    write_provenance(json, options);
     json.member("file", report.file);
     if (!report.picture.empty()) json.member(report.rays ? "answers" : "picture", report.picture);
     if (!report.difference.empty()) json.member("difference_picture", report.difference);
     if (!report.rays) {
         write_resolution(json, options.resolution);
+        json.member("samples", options.samples);
         json.member("repetitions", report.passes.front().trace_seconds.size());
     }
     write_profile(json, options);
     write_scene(json, report.scene);
+    write_warnings(json, report.warnings);
     json.member("parse_seconds", report.parse_seconds);
+    json.member("parse_wall_seconds", report.parse_wall_seconds);
     if (report.passes.size() == 1) {
         write_pass(json, report.passes.front());
     } else {
         write_passes(json, report.passes);
     }
     json.member("write_seconds", report.write_seconds);
+    json.member("write_wall_seconds", report.write_wall_seconds);
+    write_peak_memory(json);
     if (!report.pairs.empty()) write_pairs(json, report.pairs);
     if (report.error) {
         json.key("error");

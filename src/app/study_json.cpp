@@ -34,6 +34,7 @@ std::string study_json(const Options& options, const std::string& file,
     JsonWriter json;
     json.begin_object();
     json.member("nuvo", NUVO_VERSION);
+    write_provenance(json, options);
     json.member("file", file);
     write_resolution(json, options.resolution);
     json.member("rounds", options.repetitions);

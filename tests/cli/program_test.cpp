@@ -257,6 +257,26 @@ TEST_F(Program, JsonHoldsCountsAndEveryRawTime) {
         EXPECT_TRUE(json["profile"].contains(key)) << key;
 }
 
+TEST_F(Program, JsonTellsWhatMadeTheFigures) {
+    put("a.x3d",
+        "<X3D version='3.0'><Scene><Shape><Text/></Shape><Shape><Sphere/></Shape></Scene></X3D>");
+    const std::vector<std::string> arguments{"a.x3d", "--rep=1", "--res=8x8", "--json=a.json"};
+    ASSERT_EQ(run(arguments).exit_code, 0);
+    const auto json = nlohmann::json::parse(content("a.json"));
+    const auto& provenance = json["provenance"];
+    EXPECT_EQ(provenance["arguments"], arguments);
+    EXPECT_TRUE(contains(run({"--version"}).out, provenance["commit"].get<std::string>()));
+    EXPECT_TRUE(contains(provenance["libraries"]["Boost"].get<std::string>(), "1."));
+    EXPECT_GE(provenance["cores"], 1);
+    EXPECT_EQ(provenance["date"].get<std::string>().size(), 20u);
+    EXPECT_EQ(json["warnings"].size(), json["scene"]["warnings"].get<std::size_t>());
+    EXPECT_TRUE(contains(json["warnings"][0].get<std::string>(), "Text"));
+    // More than the picture itself, and no more than any test may take.
+    EXPECT_GT(json["peak_memory_bytes"], 8 * 8 * 3);
+    EXPECT_LT(json["peak_memory_bytes"], 1'000'000'000);
+    EXPECT_EQ(json["samples"], 1);
+}
+
 TEST_F(Program, CountersAreAsked) {
     put("a.x3d", kSmallScene);
     const std::vector<std::string> plain{"--file=a", "--rep=1", "--res=4,4"};

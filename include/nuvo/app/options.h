@@ -76,6 +76,7 @@ struct Options {
     bool quiet = false;
     bool help = false;
     bool version = false;
+    std::vector<std::string> arguments;  ///< as typed, all
 
     /// Whether each pixel's costs are to be recorded.
     bool wants_planes() const { return heatmap || planes; }

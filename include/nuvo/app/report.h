@@ -101,6 +101,7 @@ struct Report {
     SceneCounts scene;
     double parse_seconds = 0;
     double write_seconds = 0;
+    std::vector<std::string> warnings;  ///< of reading the scene
     double parse_wall_seconds = 0;
     double write_wall_seconds = 0;
     std::vector<Pass> passes;
