@@ -223,6 +223,10 @@ void check_streams(const Options& options) {
     if (options.compare && is_stream(options.out))
         throw UsageError(
             "-compare writes two pictures, which standard output cannot take (give --out=FILE)");
+    if (options.heatmap && is_stream(options.out))
+        throw UsageError(
+            "--heatmap is written beside the picture, and standard output has no place (give "
+            "--out=FILE)");
     if (options.show_octree && options.standard_output_taken())
         throw UsageError("-showoctree prints to standard output, which is taken by other bytes");
 }

@@ -310,6 +310,9 @@ TEST(Options, ADashIsStandardInputOrOutput) {
     EXPECT_TRUE(contains(usage_error({"a", "--rays=r", "--json=-"}), "--json=-"));
     EXPECT_TRUE(contains(usage_error({"a", "-compare", "--out=-"}), "-compare"));
     EXPECT_TRUE(contains(usage_error({"a", "-showoctree", "--out=-"}), "-showoctree"));
+    EXPECT_TRUE(contains(usage_error({"a", "--heatmap=tests", "--out=-"}), "--heatmap"));
+    EXPECT_TRUE(contains(usage_error({"-", "--heatmap=tests"}), "--heatmap"));
+    EXPECT_EQ(parse({"-", "--heatmap=tests", "--out=p.png"}).out, "p.png");
 }
 
 TEST(Options, ResolutionsAreWrittenWithACommaOrAnX) {
