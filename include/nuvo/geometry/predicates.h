@@ -95,7 +95,8 @@ namespace detail {
 inline double edge_error_bound(double d_norm, double norm) {
     constexpr double kHeadroom = 16;  // > 6: no partial sum overflows where this product does not
     const double scaled = (kHeadroom * norm * norm + kHeadroom * kUnderflow / gamma(8)) * d_norm;
-    return (6 * gamma(9) / kHeadroom) * scaled + 16 * kUnderflow;
+    // Products of d and C that underflow are multiplied with B.
+    return (6 * gamma(9) / kHeadroom) * scaled + (16 * kUnderflow) * (norm + 1);
 }
 
 }  // namespace detail
@@ -254,8 +255,11 @@ inline LineTest line_test(const ExactRay& ray, double end, const Triangle& trian
 inline constexpr double kSmallestSquare = 0x1p-900;
 inline constexpr double kLargestSquare = 0x1p900;
 
-/// Bounds the error of b^2 - a c: 32 u a (|f|^2 + R^2). [numerics: discriminant bound]
-inline double discriminant_error_bound(double a, double squares) { return gamma(32) * a * squares; }
+/// Bounds the error of b^2 - a c: 32 u a (|f|^2 + R^2), and what the products lose to underflow.
+/// [numerics: discriminant bound]
+inline double discriminant_error_bound(double a, double squares) {
+    return gamma(32) * a * squares + 4 * kUnderflow;
+}
 /// Bounds the error of |f|^2 - R^2.
 inline double power_error_bound(double squares) { return gamma(8) * squares; }
 

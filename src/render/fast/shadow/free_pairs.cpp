@@ -41,7 +41,7 @@ class PlaneSide {
         constexpr double kSmallest = 0x1p-900;  // nothing has lost to underflow
         const double value = dot(normal_, way);
         const double bound = 6 * gamma(9) * size_ * max_norm(way);
-        if (!(bound > kSmallest && std::fabs(value) > bound)) return 0;
+        if (!(size_ > kSmallest && bound > kSmallest && std::fabs(value) > bound)) return 0;
         return value > 0 ? 1 : -1;
     }
     int exact(const ExactVector& way) const {
