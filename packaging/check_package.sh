@@ -13,12 +13,12 @@ fail() {
 }
 quietly() { "$@" >"$work/log" 2>&1 || { cat "$work/log" >&2; fail "failed: $*"; }; }
 
-quietly cmake --install "$build" --prefix "$work/root"
+quietly cmake --install "$build" --prefix "$work/prefix"
 quietly cmake -S "$source_dir/examples/embed" -B "$work/embed" -G Ninja \
-    "-DCMAKE_PREFIX_PATH=$work/root" -DCMAKE_BUILD_TYPE=Release
+    "-DCMAKE_PREFIX_PATH=$work/prefix" -DCMAKE_BUILD_TYPE=Release
 quietly cmake --build "$work/embed"
 scene=$source_dir/testfiles/showcase.x3d
-nuvo=$work/root/bin/nuvo
+nuvo=$work/prefix/bin/nuvo
 "$work/embed/embed" "$scene" "$work/embed.bmp" >"$work/said"
 grep -q "shapes; the ray along -z" "$work/said" || fail "the example says nothing of its ray"
 "$nuvo" "--file=$scene" --profile=fast --rep=1 --res=640,360 "--out=$work/nuvo.bmp" --quiet
@@ -27,8 +27,8 @@ cmp "$work/embed.bmp" "$work/nuvo.bmp"
 # The flags as -h lists them, each without its value.
 flags=$("$nuvo" -h | sed -n 's/^  \(-[^ ]*\).*/\1/p' | sed 's/[=,[].*//')
 [ "$(wc -l <<<"$flags")" -gt 20 ] || fail "-h lists no flags"
-manual=$(sed 's/\\-/-/g' "$work/root/share/man/man1/nuvo.1")
-source "$work/root/share/bash-completion/completions/nuvo"
+manual=$(sed 's/\\-/-/g' "$work/prefix/share/man/man1/nuvo.1")
+source "$work/prefix/share/bash-completion/completions/nuvo"
 complete_word() {
     COMP_LINE="nuvo $1" COMP_POINT=$((5 + ${#1})) COMPREPLY=()
     _nuvo
@@ -41,6 +41,6 @@ done
 [ "$(complete_word --profile=f)" = fast ] || fail "completion of --profile=f: $(complete_word --profile=f)"
 if command -v man >/dev/null; then
     troubles=$(LC_ALL=C.UTF-8 MANROFFSEQ='' man --warnings -E UTF-8 -l -Tutf8 -Z \
-        "$work/root/share/man/man1/nuvo.1" 2>&1 >/dev/null) || true
+        "$work/prefix/share/man/man1/nuvo.1" 2>&1 >/dev/null) || true
     [ -z "$troubles" ] || fail "man: $troubles"
 fi
