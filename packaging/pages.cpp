@@ -49,7 +49,7 @@ void write_manual(std::ostream& out) {
     out << ".SH EXIT STATUS\n"
            "0 done, 1 pictures differ (\\-compare), 2 usage, 3 scene refused, 4 cannot write or "
            "out "
-           "of memory, 130 or 143 interrupted.\n"
+           "of memory, 128 + N ended by signal N.\n"
            ".SH EXAMPLES\n.nf\nnuvo \\-\\-file=scene.x3d \\-\\-profile=fast \\-\\-threads=0\n"
            "nuvo \\-\\-file=scene.x3d \\-compare\n.fi\n";
 }

@@ -63,7 +63,7 @@ std::string help_text() {
     }
     out +=
         "\nexit: 0 done, 1 pictures differ (-compare), 2 usage, 3 scene refused,\n"
-        "4 cannot write or out of memory, 130 or 143 interrupted\n";
+        "4 cannot write or out of memory, 128 + N ended by signal N\n";
     return out;
 }
 

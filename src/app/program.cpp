@@ -24,7 +24,7 @@ extern "C" void end_by_signal(int signal) {
 }
 
 void install_signal_handlers() {
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) {
         struct sigaction old {};
         // nohup's wish is respected. A shell's background jobs ignore SIGINT, too, but whoever
         // sends them one means it.
@@ -33,7 +33,7 @@ void install_signal_handlers() {
         if (signal == SIGHUP && is_ignored) continue;
         struct sigaction action {};
         action.sa_handler = end_by_signal;
-        ::sigemptyset(&action.sa_mask);
+        ::sigfillset(&action.sa_mask);
         ::sigaction(signal, &action, nullptr);
     }
     // A closed pipe and a file grown too large shall be errors of writing, not ends without a word.

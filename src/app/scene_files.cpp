@@ -1,5 +1,6 @@
 #include "scene_files.h"
 
+#include <cstdio>
 #include <iostream>
 #include <numbers>
 #include <system_error>
@@ -129,6 +130,9 @@ std::string read_standard_input(std::size_t most) {
             throw x3d::Error("standard input: file: is too large (limit " + std::to_string(most) +
                              ")");
     }
+    // std::cin takes an error of reading for the end.
+    if (std::cin.bad() || std::ferror(stdin) != 0)
+        throw x3d::Error("standard input: cannot be read");
     return text;
 }
 

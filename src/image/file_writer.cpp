@@ -1,15 +1,18 @@
 #include "nuvo/image/file_writer.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <climits>
 #include <csignal>
+#include <cstdint>
 #include <cstring>
 #include <string>
 #include <system_error>
+#include <utility>
 
 namespace nuvo::image {
 namespace {
@@ -19,6 +22,22 @@ namespace fs = std::filesystem;
 // The name a signal handler has to remove: plain bytes, since a handler may not allocate.
 char pending_name[PATH_MAX];
 volatile std::sig_atomic_t is_pending = 0;
+
+/// While it lives no signal is handled: a temporary and pending_name change as one.
+class SignalsHeld {
+  public:
+    SignalsHeld() {
+        sigset_t all;
+        ::sigfillset(&all);
+        ::pthread_sigmask(SIG_SETMASK, &all, &before_);
+    }
+    ~SignalsHeld() { ::pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+    SignalsHeld(const SignalsHeld&) = delete;
+    SignalsHeld& operator=(const SignalsHeld&) = delete;
+
+  private:
+    sigset_t before_;
+};
 
 void set_pending(const fs::path& name) {
     const std::string& text = name.native();
@@ -56,6 +75,50 @@ fs::path follow_link(const fs::path& path) {
     return error ? path : target;
 }
 
+/// The temporaries of a target are named after it, so that its next writer finds those of writers
+/// that were killed. There are as many as writers of one target at a time.
+constexpr int kTemporaries = 32;
+
+fs::path temporary_name(const fs::path& target, int number) {
+    std::uint64_t hash = 14695981039346656037u;  // FNV-1a: as long as the name may be, it fits
+    const fs::path file = target.filename();
+    for (const char c : file.native())
+        hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
+    return target.parent_path() /
+           (".nuvo-" + std::to_string(hash) + "-" + std::to_string(number) + ".tmp");
+}
+
+bool is_named(int descriptor, const fs::path& name) {
+    struct stat open {
+    }, named{};
+    return ::fstat(descriptor, &open) == 0 && ::lstat(name.c_str(), &named) == 0 &&
+           open.st_dev == named.st_dev && open.st_ino == named.st_ino;
+}
+
+// A writer holds a lock on its temporary, and the system lets go of it however the writer ends.
+// What can be locked is abandoned.
+void remove_abandoned(const fs::path& name) {
+    const int descriptor = ::open(name.c_str(), O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    if (descriptor < 0) return;
+    if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0 && is_named(descriptor, name))
+        ::unlink(name.c_str());
+    ::close(descriptor);
+}
+
+/// Creates the file and locks it: its descriptor, or -1 and errno, EEXIST where another writer has
+/// the name.
+int create_locked(const fs::path& name) {
+    const int descriptor = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (descriptor < 0) return -1;
+    const bool is_locked = ::flock(descriptor, LOCK_EX | LOCK_NB) == 0;
+    // Where files cannot be locked, none is taken for abandoned.
+    const bool is_taken = is_locked ? !is_named(descriptor, name) : errno == EWOULDBLOCK;
+    if (!is_taken) return descriptor;
+    ::close(descriptor);
+    errno = EEXIST;
+    return -1;
+}
+
 }  // namespace
 
 FileWriter::FileWriter(fs::path path) : path_(std::move(path)), target_(follow_link(path_)) {
@@ -80,15 +143,16 @@ void FileWriter::open_temporary() {
     const bool replaces = ::stat(target_.c_str(), &old) == 0;
     if (!replaces && errno != ENOENT) fail(errno);  // a name too long, a file in place of a folder
     if (replaces && ::access(target_.c_str(), W_OK) != 0) fail(errno);
-    constexpr int kAttempts = 100;  // names left behind by killed processes of the same number
-    for (int attempt = 0; attempt < kAttempts; ++attempt) {
-        temporary_ = target_.parent_path() / (".nuvo-" + std::to_string(::getpid()) + "-" +
-                                              std::to_string(attempt) + ".tmp");
-        set_pending(temporary_);
-        descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (descriptor_ >= 0) break;
-        is_pending = 0;
-        if (errno != EEXIST) break;
+    for (int number = 0; number < kTemporaries; ++number)
+        remove_abandoned(temporary_name(target_, number));
+    for (int number = 0; number < kTemporaries && descriptor_ < 0; ++number) {
+        temporary_ = temporary_name(target_, number);
+        const SignalsHeld held;
+        descriptor_ = create_locked(temporary_);
+        if (descriptor_ >= 0)
+            set_pending(temporary_);  // from here on nothing may throw but by fail()
+        else if (errno != EEXIST)
+            break;
     }
     if (descriptor_ < 0) {
         const int error = errno;
@@ -113,22 +177,27 @@ void FileWriter::commit() {
     // EINVAL, EROFS: a pipe or a device, which has nothing to flush.
     if (::fsync(descriptor_) != 0 && errno != EINVAL && errno != EROFS && errno != ENOTSUP)
         fail(errno);
-    const int closed = ::close(descriptor_);
-    const int close_error = errno;
-    descriptor_ = -1;
-    if (closed != 0) fail(close_error);
+    // The lock stays until the temporary has its new name.
+    const int lock = temporary_.empty() ? -1 : ::fcntl(descriptor_, F_DUPFD_CLOEXEC, 0);
+    const int closed = ::close(std::exchange(descriptor_, lock));
+    if (closed != 0) fail(errno);
     if (temporary_.empty()) return;
+    const SignalsHeld held;
     if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(errno);
-    temporary_.clear();
     is_pending = 0;
+    temporary_.clear();
+    discard();
 }
 
 void FileWriter::discard() noexcept {
+    const SignalsHeld held;
+    if (!temporary_.empty()) {
+        ::unlink(temporary_.c_str());
+        is_pending = 0;
+    }
+    temporary_.clear();
     if (descriptor_ >= 0) ::close(descriptor_);
     descriptor_ = -1;
-    if (!temporary_.empty()) ::unlink(temporary_.c_str());
-    temporary_.clear();
-    is_pending = 0;
 }
 
 void FileWriter::fail(int error) {

@@ -87,6 +87,15 @@ bool stays_inside(const std::string& url) {
            std::find(path.begin(), path.end(), "..") == path.end();
 }
 
+/// True where the system tells that there is no such file for the reader: what the scene says. All
+/// else (too many open files, a broken disk) is a fault, and another picture for it would be a lie.
+bool is_absence(const std::error_code& error) {
+    return error == std::errc::no_such_file_or_directory || error == std::errc::not_a_directory ||
+           error == std::errc::permission_denied ||
+           error == std::errc::too_many_symbolic_link_levels ||
+           error == std::errc::filename_too_long;
+}
+
 bool is_below(const fs::path& path, const fs::path& folder) {
     return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first ==
            folder.end();
@@ -256,11 +265,17 @@ std::optional<fs::path> Documents::find_inline(const std::string& url, const fs:
     const fs::path path = folder / name;
     std::error_code error;
     const fs::path canonical = fs::canonical(path, error);
+    if (error && !is_absence(error)) fail_to_read(path, "cannot be found: " + error.message());
     if (!error && !is_below(canonical, home_)) return std::nullopt;  // by a link
     reason = "naming no X3D file that can be read left out";
     const bool named_x3d = path.extension() == ".x3d" || path.extension() == ".x3dz";
     if (error || !named_x3d || !fs::is_regular_file(canonical, error)) return std::nullopt;
-    if (!std::ifstream(canonical, std::ios::binary)) return std::nullopt;
+    errno = 0;
+    if (!std::ifstream(canonical, std::ios::binary)) {
+        error = {errno, std::generic_category()};
+        if (errno != 0 && is_absence(error)) return std::nullopt;
+        fail_to_read(path, "cannot be opened: " + error.message());
+    }
     return path;
 }
 

@@ -8,29 +8,33 @@ namespace nuvo::x3d {
 
 namespace {
 
-const std::unordered_set<std::string_view> kSilent{"",
-                                                   "EXPORT",
-                                                   "ExternProtoDeclare",
-                                                   "FontStyle",
-                                                   "IS",
-                                                   "MetadataBoolean",
-                                                   "MetadataDouble",
-                                                   "MetadataFloat",
-                                                   "MetadataInteger",
-                                                   "MetadataSet",
-                                                   "MetadataString",
-                                                   "MultiTextureCoordinate",
-                                                   "ProtoDeclare",
-                                                   "ProtoInterface",
-                                                   "TextureCoordinate",
-                                                   "TextureCoordinate3D",
-                                                   "TextureCoordinate4D",
-                                                   "TextureCoordinateGenerator",
-                                                   "WorldInfo",
-                                                   "component",
-                                                   "head",
-                                                   "meta",
-                                                   "unit"};
+// Made when it is first asked for: what fails before main() cannot be told.
+const std::unordered_set<std::string_view>& silent_names() {
+    static const std::unordered_set<std::string_view> names{"",
+                                                            "EXPORT",
+                                                            "ExternProtoDeclare",
+                                                            "FontStyle",
+                                                            "IS",
+                                                            "MetadataBoolean",
+                                                            "MetadataDouble",
+                                                            "MetadataFloat",
+                                                            "MetadataInteger",
+                                                            "MetadataSet",
+                                                            "MetadataString",
+                                                            "MultiTextureCoordinate",
+                                                            "ProtoDeclare",
+                                                            "ProtoInterface",
+                                                            "TextureCoordinate",
+                                                            "TextureCoordinate3D",
+                                                            "TextureCoordinate4D",
+                                                            "TextureCoordinateGenerator",
+                                                            "WorldInfo",
+                                                            "component",
+                                                            "head",
+                                                            "meta",
+                                                            "unit"};
+    return names;
+}
 
 /// The nodes and statements of X3D 3.0 to 4.0 (ISO/IEC 19775-1 and 19776-1).
 constexpr std::string_view kNames =
@@ -156,7 +160,7 @@ std::string_view missing_part(std::string_view name) {
     return {};
 }
 
-bool is_silent(std::string_view name) { return kSilent.contains(name); }
+bool is_silent(std::string_view name) { return silent_names().contains(name); }
 
 std::string_view right_spelling(std::string_view name) {
     static const std::unordered_map<std::string, std::string_view> known = spellings();

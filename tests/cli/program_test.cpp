@@ -419,7 +419,8 @@ bool catches(pid_t process, int signal) {
 TEST_F(Program, ASignalLeavesTheOldPictureAndNoOther) {
     put("a.x3d", grid_scene(4));
     put("a.bmp", "old");
-    const std::pair<int, int> cases[] = {{SIGINT, 130}, {SIGTERM, 143}, {SIGKILL, -1}};
+    const std::pair<int, int> cases[] = {
+        {SIGINT, 130}, {SIGTERM, 143}, {SIGHUP, 129}, {SIGQUIT, 131}, {SIGKILL, -1}};
     for (const auto& [signal, exit_code] : cases) {
         const pid_t child = start({"--file=a", "--res=400,400", "--rep=1000000"});
         for (int i = 0; i < 1000 && !catches(child, SIGINT); ++i)

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -80,6 +81,52 @@ TEST_F(FileWriterTest, NothingIsRemovedOnceTheFileIsComplete) {
     write_file_atomically(folder_ / "a", "whole");
     remove_pending_temporary();
     EXPECT_EQ(content("a"), "whole");
+}
+
+TEST_F(FileWriterTest, WhatAKilledWriterLeftIsRemovedByTheNextOfItsTarget) {
+    put("a", "old");
+    const pid_t child = ::fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+        FileWriter writer(folder_ / "a");
+        writer.write("half");
+        ::kill(::getpid(), SIGKILL);
+    }
+    ASSERT_EQ(::waitpid(child, nullptr, 0), child);
+    EXPECT_EQ(content("a"), "old");
+    EXPECT_EQ(entries(), 2);
+    check_writable(folder_ / "other");
+    EXPECT_EQ(entries(), 2);  // each target's own
+    write_file_atomically(folder_ / "a", "new");
+    EXPECT_EQ(content("a"), "new");
+    EXPECT_EQ(entries(), 1);
+}
+
+TEST_F(FileWriterTest, AWriterAtWorkKeepsItsTemporaryBesideOthersOfItsTarget) {
+    FileWriter first(folder_ / "a");
+    first.write("fir");
+    write_file_atomically(folder_ / "a", "second");
+    EXPECT_EQ(content("a"), "second");
+    EXPECT_EQ(entries(), 2);
+    first.write("st");
+    first.commit();
+    EXPECT_EQ(content("a"), "first");
+    EXPECT_EQ(entries(), 1);
+}
+
+TEST_F(FileWriterTest, AForeignLinkUnderTheTemporarysNameIsNotFollowed) {
+    put("precious", "mine");
+    fs::path name;
+    {
+        const FileWriter writer(folder_ / "a");
+        for (const auto& entry : fs::directory_iterator(folder_))
+            if (entry.path().extension() == ".tmp") name = entry.path();
+    }
+    fs::create_symlink("precious", name);
+    write_file_atomically(folder_ / "a", "new");
+    EXPECT_EQ(content("a"), "new");
+    EXPECT_EQ(content("precious"), "mine");
+    EXPECT_FALSE(fs::is_symlink(folder_ / "a"));
 }
 
 TEST_F(FileWriterTest, AMissingFolderIsNamed) {

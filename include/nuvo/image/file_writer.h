@@ -17,9 +17,9 @@ inline constexpr const char* kStandardOutput = "-";
 
 /// A file that appears whole or not at all. The bytes go to a temporary name in the target's
 /// folder; commit() flushes it to the disk and renames it, and a writer that dies before leaves the
-/// target as it was. What exists and is no regular file (a device, a pipe) is written directly and
-/// never renamed over, and so is standard output. Every failure is a WriteError. One writer at a
-/// time.
+/// target as it was; the target's next writer removes what a killed one left (decision 0082). What
+/// exists and is no regular file (a device, a pipe) is written directly and never renamed over, and
+/// so is standard output. Every failure is a WriteError. One writer at a time.
 class FileWriter {
   public:
     /// Opens the temporary, or the target itself where it must be written directly.
