@@ -127,8 +127,9 @@ std::vector<Ray> read_rays(const std::filesystem::path& path) {
     errno = 0;
     std::ifstream file(path, std::ios::binary);
     std::string text;
-    const std::uintmax_t size = std::filesystem::file_size(path, ignored);
-    if (!ignored) text.reserve(size);
+    std::uintmax_t size = std::filesystem::file_size(path, ignored);
+    if (ignored) size = 0;  // a pipe or a device
+    text.reserve(size);
     std::vector<char> chunk(1 << 18);
     while (file) {
         file.read(chunk.data(), static_cast<std::streamsize>(chunk.size()));
@@ -138,6 +139,9 @@ std::vector<Ray> read_rays(const std::filesystem::path& path) {
     if (!file.eof() || errno == EISDIR)
         throw RaysError(path.string() +
                         ": line 1: cannot read: " + std::generic_category().message(errno));
+    if (text.size() < size)
+        throw RaysError(path.string() + ": line 1: cannot read: it ends after " +
+                        std::to_string(text.size()) + " of its " + std::to_string(size) + " bytes");
     return parse_rays(text, path.string());
 }
 

@@ -150,6 +150,9 @@ std::string Documents::read_bytes(const fs::path& path) {
         check_size(text.size());
     }
     if (file.bad()) fail_to_read(path, "cannot be read");
+    if (!ignored && text.size() < size)
+        fail_to_read(path, "ends after " + std::to_string(text.size()) + " of its " +
+                               std::to_string(size) + " bytes");
     if (is_gzip(text)) {
         const std::size_t most = std::max(kUnpackedBytes, kUnpackedRatio * text.size());
         text = gunzip(text, path.string(), std::min(left, most));
