@@ -112,7 +112,7 @@ void midpoint_search(benchmark::State& state) {
     state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations()) * state.range(0));
 }
 BENCHMARK(midpoint_search<sweep_midpoint>)->Arg(100)->Arg(10'000);
-BENCHMARK(midpoint_search<mlsl_sbplx_midpoint>)->Arg(100)->Arg(10'000);
+BENCHMARK(midpoint_search<published_midpoint>)->Arg(100)->Arg(10'000);
 
 void load_scene(benchmark::State& state, const char* file) {
     for (auto _ : state) benchmark::DoNotOptimize(x3d::read_file(file));

@@ -299,7 +299,8 @@ std::vector<Flag> profile_flags() {
         {"isa", "--isa", joined_names(kInstructionSets), "",
          "instruction set of the tile tracer; none given: the best of the machine", apply_isa},
         {"midpoint", "--midpoint", joined_names(kMidpoints), "by profile",
-         "where a non-uniform voxel is cut",
+         "where a non-uniform voxel is cut: at its centre, by true areas, or by the thesis' search "
+         "as its program ran it (two names)",
          [](Options& o, const std::string& v) {
              o.profile.midpoint = parse_choice(kMidpoints, v);
          }},

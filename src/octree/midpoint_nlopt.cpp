@@ -1,97 +1,10 @@
 #include <algorithm>
-#include <cmath>
 #include <nlopt.hpp>
 #include <stdexcept>
 
 #include "nuvo/octree/midpoint.h"
 
 namespace nuvo {
-namespace {
-
-constexpr int kMaxEvaluations = 100;
-constexpr std::size_t kEvaluationsPerObject = 3;
-
-double score_of(const std::vector<double>& x, std::vector<double>&, void* data) {
-    return static_cast<const MidpointScore*>(data)->product({x[0], x[1], x[2]});
-}
-
-// The least score between two points, lower[k] <= upper[k].
-Point3 searched_midpoint(const SplitQuery& query, const std::vector<double>& lower,
-                         const std::vector<double>& upper) {
-    const Point3 center = query.voxel.bounds.center();
-    std::vector<double> best{center.x, center.y, center.z};
-    MidpointScore score(query);
-    nlopt::opt search(nlopt::G_MLSL_LDS, 3);
-    search.set_local_optimizer(nlopt::opt(nlopt::LN_SBPLX, 3));
-    search.set_min_objective(score_of, &score);
-    search.set_lower_bounds(lower);
-    search.set_upper_bounds(upper);
-    search.set_maxeval(static_cast<int>(
-        std::min<std::size_t>(kMaxEvaluations, kEvaluationsPerObject * query.boxes.size())));
-    double best_score = 0;
-    try {
-        search.optimize(best, best_score);
-    } catch (const std::runtime_error&) {
-        return center;  // the bounds are too near to each other for its steps
-    } catch (const std::invalid_argument&) {
-        return center;
-    }
-    return {best[0], best[1], best[2]};
-}
-
-// Beyond these its steps and distances would be subnormal or overflow.
-constexpr double kSmallestWidth = 0x1p-400;
-constexpr double kLargestWidth = 0x1p400;
-
-Bounds3 scaled(const Bounds3& box, int shift) {
-    Bounds3 result;
-    for (int axis = 0; axis < 3; ++axis) {
-        result.min[axis] = std::ldexp(box.min[axis], shift);
-        result.max[axis] = std::ldexp(box.max[axis], shift);
-    }
-    return result;
-}
-
-// The same question about a voxel of ordinary size; the answer is brought back into the voxel.
-std::optional<Point3> midpoint_of_scaled(const SplitQuery& query, double width) {
-    const int shift = -std::ilogb(width);
-    std::vector<Bounds3> boxes;
-    boxes.reserve(query.boxes.size());
-    for (const Bounds3& box : query.boxes) boxes.push_back(scaled(box, shift));
-    Voxel voxel{scaled(query.voxel.bounds, shift), {}};
-    voxel.midpoint = voxel.bounds.center();
-    const std::optional<Point3> found =
-        mlsl_sbplx_midpoint({voxel, boxes, std::ldexp(query.margin, shift)});
-    if (!found) return found;
-    Point3 result;
-    for (int axis = 0; axis < 3; ++axis)
-        result[axis] = std::clamp(std::ldexp((*found)[axis], -shift), query.voxel.bounds.min[axis],
-                                  query.voxel.bounds.max[axis]);
-    return result;
-}
-
-}  // namespace
-
-std::optional<Point3> mlsl_sbplx_midpoint(const SplitQuery& query) {
-    if (query.boxes.empty()) return std::nullopt;
-    const Bounds3& box = query.voxel.bounds;
-    const double width = max_norm(box.widths());
-    if ((width > 0 && width < kSmallestWidth) || (width > kLargestWidth && std::isfinite(width)))
-        return midpoint_of_scaled(query, width);
-    const Point3 center = box.center();
-    std::vector<double> lower(3);
-    std::vector<double> upper(3);
-    for (int axis = 0; axis < 3; ++axis) {
-        const double median = object_median(query.boxes, axis);
-        // A median on or beyond a face is the thesis' null pointer: the voxel is not cut.
-        for (const double m : {center[axis], median})
-            if (!(box.min[axis] < m && m < box.max[axis])) return std::nullopt;
-        lower[axis] = std::min(center[axis], median);
-        upper[axis] = std::max(center[axis], median);
-    }
-    if (lower == upper) return center;
-    return searched_midpoint(query, lower, upper);
-}
 
 // The published program's numbers; its lengths are scene units. [docs/thesis-map.md, section 7]
 namespace published {

@@ -97,8 +97,6 @@ MidpointStrategy midpoint_strategy(const Profile& profile) {
             return spatial_midpoint;
         case MidpointChoice::kSweep:
             return sweep_midpoint;
-        case MidpointChoice::kMlslSbplx:
-            return mlsl_sbplx_midpoint;
         case MidpointChoice::kPublished:
             return published_midpoint;
     }

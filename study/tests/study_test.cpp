@@ -248,5 +248,54 @@ TEST_P(OnScene, PruningNeverRaisesTheExpectedCost) {
               sah(sah_totals(deep), area, costs.costs()));
 }
 
+std::vector<Bounds3> points(const std::vector<Point3>& centers) {
+    std::vector<Bounds3> boxes;
+    for (const Point3& p : centers) boxes.push_back({p, p});
+    return boxes;
+}
+
+TEST(MlslSbplx, StaysBetweenTheMediansAndIsDeterministic) {
+    const Voxel voxel = Voxel::centered({{0, 0, 0}, {8, 4, 2}});
+    constexpr unsigned kSeed = 7;
+    SCOPED_TRACE(kSeed);
+    std::mt19937_64 random(kSeed);
+    std::uniform_real_distribution<double> unit(0, 1);
+    std::vector<Bounds3> boxes;
+    for (int i = 0; i < 200; ++i) {
+        const Point3 low{2.5 * unit(random), 3.5 * unit(random), 1.5 * unit(random)};
+        boxes.push_back(
+            {low, low + Vector3{0.5 * unit(random), 0.5 * unit(random), 0.5 * unit(random)}});
+    }
+    const SplitQuery query{voxel, boxes};
+    const auto midpoint = mlsl_lds_sbplx(nullptr)(query);
+    ASSERT_TRUE(midpoint);
+    for (int axis = 0; axis < 3; ++axis) {
+        const double median = object_median(boxes, axis);
+        EXPECT_GE((*midpoint)[axis], std::min(median, voxel.midpoint[axis]));
+        EXPECT_LE((*midpoint)[axis], std::max(median, voxel.midpoint[axis]));
+    }
+    EXPECT_EQ(mlsl_lds_sbplx(nullptr)(query), midpoint);
+    const MidpointScore score(query);
+    EXPECT_LE(score.product(*midpoint), score.product(voxel.midpoint));
+}
+
+TEST(MlslSbplx, DoesNotCutWhereTheMedianIsOnOrOutsideAFace) {
+    const Voxel voxel = Voxel::centered({{0, 0, 0}, {1, 1, 1}});
+    EXPECT_FALSE(mlsl_lds_sbplx(nullptr)({voxel, points({{1, 0.5, 0.5}})}));
+    EXPECT_FALSE(mlsl_lds_sbplx(nullptr)({voxel, points({{0.5, -2, 0.5}})}));
+    EXPECT_FALSE(mlsl_lds_sbplx(nullptr)({voxel, {}}));
+}
+
+TEST(MlslSbplx, TakesTheCommonPointWhereTheMediansCoincide) {
+    const Voxel voxel = Voxel::centered({{0, 0, 0}, {2, 2, 2}});
+    const auto same = points({{0.5, 1, 1}, {1.5, 1, 1}});  // mean of the middle two is the centre
+    EXPECT_EQ(mlsl_lds_sbplx(nullptr)({voxel, same}), (Point3{1, 1, 1}));
+    const auto one_axis = points({{0.5, 1, 1}, {0.7, 1, 1}});  // y and z bounds are equal
+    const auto midpoint = mlsl_lds_sbplx(nullptr)({voxel, one_axis});
+    ASSERT_TRUE(midpoint);
+    EXPECT_EQ(midpoint->y, 1);
+    EXPECT_EQ(midpoint->z, 1);
+}
+
 }  // namespace
 }  // namespace nuvo::study

@@ -154,7 +154,7 @@ const std::vector<Target>& targets() {
           "nonuniform", "-compare",   "-h",       "--",      "-",       "--profile=", "exact",
           "fast",       "thesis",     "--walk=",  "hash",    "--step=", "--bias=",    "=",
           "--costs=",   "calibrated", "thesis:8", "--isa=",  "avx2",    "--threads=", "--midpoint=",
-          "mlsl-sbplx", "--rays=",    "--out=",   "--json=", "--study", "-showoctree"}},
+          "published",  "--rays=",    "--out=",   "--json=", "--study", "-showoctree"}},
     };
     return all;
 }

@@ -34,7 +34,7 @@ struct SerialWay {
 };
 constexpr SerialWay kSerialWays[] = {
     {"exact uniform", OctreeType::kUniform, MidpointChoice::kSpatial},
-    {"exact nonuniform", OctreeType::kNonuniform, MidpointChoice::kMlslSbplx},
+    {"exact nonuniform", OctreeType::kNonuniform, MidpointChoice::kPublished},
     {"exact sweep", OctreeType::kNonuniform, MidpointChoice::kSweep},
 };
 

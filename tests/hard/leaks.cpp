@@ -71,7 +71,7 @@ std::uint64_t leaks_of_batch(std::uint64_t number, std::uint64_t rays_wanted, st
     const auto& mesh = std::get<TriangleMesh>(closed.scene.objects[0].shape);
     Profile profile = exact_profile();
     profile.type = random.chance() ? OctreeType::kUniform : OctreeType::kNonuniform;
-    profile.midpoint = random.chance() ? MidpointChoice::kMlslSbplx : MidpointChoice::kSweep;
+    profile.midpoint = random.chance() ? MidpointChoice::kPublished : MidpointChoice::kSweep;
     profile.walk = random.chance() ? WalkChoice::kHash : WalkChoice::kDescent;
     const Primitives primitives = flatten(closed.scene, profile.leaves);
     const Octree octree = build_tree(closed.scene, primitives, profile);

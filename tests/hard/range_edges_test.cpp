@@ -21,7 +21,7 @@ constexpr Resolution kSmall{30, 20};
 std::vector<Profile> profiles() {
     std::vector<Profile> all;
     for (const MidpointChoice midpoint :
-         {MidpointChoice::kSpatial, MidpointChoice::kSweep, MidpointChoice::kMlslSbplx})
+         {MidpointChoice::kSpatial, MidpointChoice::kSweep, MidpointChoice::kPublished})
         for (const bool cut_all : {false, true}) {
             Profile profile = exact_profile();
             profile.type = OctreeType::kNonuniform;

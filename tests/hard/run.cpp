@@ -26,7 +26,7 @@ struct Batch {
 Profile any_profile(Random& random, bool deep_trees) {
     Profile profile = exact_profile();
     profile.type = random.below(3) == 0 ? OctreeType::kUniform : OctreeType::kNonuniform;
-    profile.midpoint = random.chance() ? MidpointChoice::kMlslSbplx : MidpointChoice::kSweep;
+    profile.midpoint = random.chance() ? MidpointChoice::kPublished : MidpointChoice::kSweep;
     profile.walk = random.chance() ? WalkChoice::kHash : WalkChoice::kDescent;
     if (random.below(4) == 0) profile.leaves = LeafContent::kShapes;
     if (random.below(4) == 0) profile.max_objects = deep_trees ? 2 : 16;

@@ -207,7 +207,7 @@ TEST(Build, LeavesTileTheRootAndListWhatTheyOverlap) {
     const auto boxes = random_boxes(9, 300, 3);
     for (const auto& midpoint :
          {MidpointStrategy(spatial_midpoint), MidpointStrategy(sweep_midpoint),
-          MidpointStrategy(mlsl_sbplx_midpoint)}) {
+          MidpointStrategy(published_midpoint)}) {
         BuildOptions options;
         options.midpoint = midpoint;
         options.worth = CalibratedCosts{2};

@@ -54,40 +54,6 @@ TEST(AxisEdges, CountsSpanningBoxesOnBothSidesAndTouchingOnesOnNone) {
     EXPECT_EQ(edges.right_of(2), 1U);  // the first ends at 2, not above it
 }
 
-TEST(MlslSbplx, StaysBetweenTheMediansAndIsDeterministic) {
-    const Voxel voxel = Voxel::centered({{0, 0, 0}, {8, 4, 2}});
-    const auto boxes = random_boxes(7, 200, {{0, 0, 0}, {3, 4, 2}});
-    const SplitQuery query{voxel, boxes};
-    const auto midpoint = mlsl_sbplx_midpoint(query);
-    ASSERT_TRUE(midpoint);
-    for (int axis = 0; axis < 3; ++axis) {
-        const double median = object_median(boxes, axis);
-        EXPECT_GE((*midpoint)[axis], std::min(median, voxel.midpoint[axis]));
-        EXPECT_LE((*midpoint)[axis], std::max(median, voxel.midpoint[axis]));
-    }
-    EXPECT_EQ(mlsl_sbplx_midpoint(query), midpoint);
-    const MidpointScore score(query);
-    EXPECT_LE(score.product(*midpoint), score.product(voxel.midpoint));
-}
-
-TEST(MlslSbplx, DoesNotCutWhereTheMedianIsOnOrOutsideAFace) {
-    const Voxel voxel = Voxel::centered({{0, 0, 0}, {1, 1, 1}});
-    EXPECT_FALSE(mlsl_sbplx_midpoint({voxel, points({{1, 0.5, 0.5}})}));
-    EXPECT_FALSE(mlsl_sbplx_midpoint({voxel, points({{0.5, -2, 0.5}})}));
-    EXPECT_FALSE(mlsl_sbplx_midpoint({voxel, {}}));
-}
-
-TEST(MlslSbplx, TakesTheCommonPointWhereTheMediansCoincide) {
-    const Voxel voxel = Voxel::centered({{0, 0, 0}, {2, 2, 2}});
-    const auto same = points({{0.5, 1, 1}, {1.5, 1, 1}});  // mean of the middle two is the centre
-    EXPECT_EQ(mlsl_sbplx_midpoint({voxel, same}), (Point3{1, 1, 1}));
-    const auto one_axis = points({{0.5, 1, 1}, {0.7, 1, 1}});  // y and z bounds are equal
-    const auto midpoint = mlsl_sbplx_midpoint({voxel, one_axis});
-    ASSERT_TRUE(midpoint);
-    EXPECT_EQ(midpoint->y, 1);
-    EXPECT_EQ(midpoint->z, 1);
-}
-
 // Eq. 16 by hand: on x 2 * 1 + (10 - 2) * 2, on y 5 * 2 + (10 - 5) * 2, on z 9 * 2 + 1 * 0.
 TEST(MidpointScore, SumsTheAxesInSceneUnits) {
     const Voxel voxel = Voxel::centered({{0, 0, 0}, {10, 10, 10}});

@@ -80,7 +80,7 @@ void expect_walks_equal_brute_force(const Scene& scene, unsigned seed, int count
              {std::optional<std::size_t>(), std::optional<std::size_t>(2)}) {
             const Primitives primitives = flatten(scene, leaves);
             for (const MidpointChoice midpoint :
-                 {MidpointChoice::kSpatial, MidpointChoice::kSweep, MidpointChoice::kMlslSbplx}) {
+                 {MidpointChoice::kSpatial, MidpointChoice::kSweep, MidpointChoice::kPublished}) {
                 Profile profile = exact_profile();
                 profile.type = OctreeType::kNonuniform;  // cut at the spatial centre it is uniform
                 profile.midpoint = midpoint;

@@ -28,8 +28,8 @@ inline constexpr std::array kOctreeTypes{Choice{"uniform", OctreeType::kUniform}
                                          Choice{"nonuniform", OctreeType::kNonuniform}};
 inline constexpr std::array kMidpoints{Choice{"spatial", MidpointChoice::kSpatial},
                                        Choice{"sweep", MidpointChoice::kSweep},
-                                       Choice{"mlsl-sbplx", MidpointChoice::kMlslSbplx},
-                                       Choice{"published", MidpointChoice::kPublished}};
+                                       Choice{"published", MidpointChoice::kPublished},
+                                       Choice{"mlsl-sbplx", MidpointChoice::kPublished}};
 inline constexpr std::array kCosts{Choice{"thesis", CostChoice::kThesis},
                                    Choice{"calibrated", CostChoice::kCalibrated}};
 inline constexpr std::array kLeafContents{Choice{"shapes", LeafContent::kShapes},

@@ -41,7 +41,8 @@ struct ThesisCosts {
     float of_tree(const SahTotals& totals, double root_area) const;
 };
 
-/// Constant prices in units of one primitive test: a node step costs `step`.
+/// Constant prices in units of one test of a leaf item: a node step costs `step`, as measured where
+/// items are single primitives.
 struct CalibratedCosts {
     double step = 6;
 

@@ -32,15 +32,10 @@ MidpointStrategy shrinking(MidpointStrategy strategy);
 /// clear of the edge it belongs to, for an object that touched it would lie on both sides.
 std::optional<Point3> sweep_midpoint(const SplitQuery& query);
 
-/// NLopt's MLSL (low-discrepancy) with Sbplx as local search, minimising eq. 19 between the spatial
-/// and the object median, at most 3 evaluations an object and 100 in all. None when either median
-/// lies on or outside a face. Deterministic. [thesis 3.2, 5.4.2 as printed]
-std::optional<Point3> mlsl_sbplx_midpoint(const SplitQuery& query);
-
-/// The published program's search, in float: the same algorithms, minimising the sum of eq. 16
-/// between the voxel's midpoint and the mean of the items' centres, in fewer evaluations. None
-/// where the box between these comes within 0.1 scene units of a face, or is thin and the voxel
-/// small. Deterministic. [docs/thesis-map.md, section 7]
+/// The published program's search, in float: NLopt's MLSL (low-discrepancy) with Sbplx as local
+/// search, minimising the sum of eq. 16 between the voxel's midpoint and the mean of the items'
+/// centres, in at most 100 evaluations. None where the box between these comes within 0.1 scene
+/// units of a face, or is thin and the voxel small. Deterministic. [docs/thesis-map.md, section 7]
 std::optional<Point3> published_midpoint(const SplitQuery& query);
 
 /// Median of the box centres on one axis; of an even number the mean of the middle two. [5.4.2]

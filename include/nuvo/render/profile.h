@@ -8,7 +8,7 @@ namespace nuvo {
 
 enum class OctreeType { kUniform, kNonuniform };
 /// How a non-uniform voxel is cut. Uniform trees always cut at the spatial midpoint.
-enum class MidpointChoice { kSpatial, kSweep, kMlslSbplx, kPublished };
+enum class MidpointChoice { kSpatial, kSweep, kPublished };
 enum class LeafContent { kShapes, kPrimitives };
 enum class WalkChoice { kHash, kDescent };
 enum class Precision { kFloat, kDouble, kExact };
@@ -27,7 +27,7 @@ enum class TracerChoice { kSerial, kTiles };
 struct Profile {
     TracerChoice tracer = TracerChoice::kSerial;
     OctreeType type = OctreeType::kUniform;
-    MidpointChoice midpoint = MidpointChoice::kMlslSbplx;  ///< used by non-uniform trees only
+    MidpointChoice midpoint = MidpointChoice::kSweep;  ///< used by non-uniform trees only
     CostChoice costs = CostChoice::kCalibrated;
     std::optional<std::size_t> max_objects;  ///< stop rule of COMP1011 instead of the costs
     LeafContent leaves = LeafContent::kPrimitives;
