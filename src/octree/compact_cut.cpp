@@ -9,9 +9,10 @@
 namespace nuvo {
 namespace {
 
-// An axis by this factor narrower than the widest is not cut: of a scene that is flat in it the
-// items would lie on both sides.
-constexpr float kFlattest = 0x1p-12F;
+// An axis narrower than this part of the widest is not cut, so that voxels stay about as wide as
+// they are deep: slices of a flat scene's height would list all that stands upright in it again and
+// again.
+constexpr float kFlattest = 0.5F;
 
 }  // namespace
 

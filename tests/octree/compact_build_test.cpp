@@ -119,6 +119,34 @@ TEST(CompactBuild, LeavesListExactlyTheBoxesThatTouchThem) {
             }
 }
 
+// A block of upright slats stands in the middle of a floor.
+std::vector<Box> slats_on_a_floor(float floor) {
+    std::vector<Box> boxes;
+    for (int i = 0; i < 32; ++i)
+        for (int k = 0; k < 32; ++k) {
+            const Vec3<float> p{static_cast<float>(i) / 32, 0, static_cast<float>(k) / 32};
+            boxes.push_back({p, p + Vec3<float>{0x1p-6F, 1, 0x1p-6F}});
+        }
+    boxes.push_back({{-floor, -1, -floor}, {floor, -1, floor}});
+    return boxes;
+}
+
+// Of a flat hall every voxel has the shape of the hall, unless it is cut on its long axes alone:
+// the slats would be cut into as many slices as the hall is wider than it is high.
+TEST(CompactBuild, AWideFloorDoesNotSliceWhatStandsOnIt) {
+    for (const CutRule rule : kRules) {
+        const auto references = [&](float floor) {
+            const std::vector<Box> boxes = slats_on_a_floor(floor);
+            const CompactOctree tree = build_compact_octree(boxes, options(rule));
+            expect_brute_force(leaves_of(tree), boxes);
+            return tree.items.size();
+        };
+        const std::size_t small = references(2);
+        for (const float floor : {0x1p5F, 0x1p10F, 0x1p20F})
+            EXPECT_LE(references(floor), 2 * small) << "floor " << floor;
+    }
+}
+
 TEST(CompactBuild, BoxesThatEndOnACutAreListedOnBothSides) {
     // Spatial cuts depend on the whole box only: those of a first tree are edges in the second.
     std::vector<Box> boxes = random_boxes(4, 2000, 0.01F);

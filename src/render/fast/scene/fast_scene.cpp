@@ -19,20 +19,6 @@
 namespace nuvo {
 namespace {
 
-LocalFrame frame_of(const Bounds3& box) {
-    if (box.empty()) return {};
-    LocalFrame frame;
-    frame.center = box.center();
-    const double half = max_norm(box.max * 0.5 - box.min * 0.5);
-    int exponent = 0;
-    std::frexp(half, &exponent);  // half < 2^exponent
-    // A box thinner than 2^-1023 stays thinner than 1.
-    if (half > 0)
-        frame.scale =
-            std::ldexp(1.0, std::min(-exponent, std::numeric_limits<double>::max_exponent - 1));
-    return frame;
-}
-
 // Below (above) the true number from which `nearest` was rounded: by one unit in the last place and
 // more, at least by the smallest normal number. Local coordinates in double are off by a relative
 // 2^-53 or an absolute 2^-1074, of which nothing matters here.
@@ -128,7 +114,7 @@ FastScene::FastScene(const Scene& scene, const Primitives& primitives,
     : scene_(scene), primitives_(primitives), back_faces_(back_faces) {
     Bounds3 box;
     for (const KindSummary& kind : primitives.kinds) box = box.extended(kind.box);
-    frame_ = frame_of(box);
+    frame_ = local_frame(primitives, box);
     if (!box.empty()) largest_coordinate_ = std::max(max_norm(box.min), max_norm(box.max));
     const auto count = [&](PrimitiveKind kind) {
         return static_cast<Slot>(primitives.kind(kind).count);

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "fast/scene/local_frame.h"
 #include "fast/scene/octant_tests.h"
 #include "nuvo/math/big_vector.h"
 #include "nuvo/math/bounds.h"
@@ -14,17 +15,6 @@
 #include "nuvo/scene/scene.h"
 
 namespace nuvo {
-
-/// The frame in which floats are good for the scene: moved so that its box lies around 0 and scaled
-/// by a power of two so that it is about 1 wide.
-struct LocalFrame {
-    Point3 center;
-    double scale = 1;  ///< a power of two
-
-    /// Three roundings at most: of the difference, in units of the larger operand; none of the
-    /// product unless it is subnormal.
-    Point3 local(const Point3& p) const { return (p - center) * scale; }
-};
 
 /// A primitive's place: triangles first, in document order, then spheres, then ellipsoids, each in
 /// an order of their own.

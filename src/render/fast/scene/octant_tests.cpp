@@ -15,10 +15,12 @@
 // contributes serves four octants.
 //
 // All bounds hold for u = 2^-24. W is the largest coordinate of an item's points, H the largest of
-// the voxel's faces, both seen from the new origin, T = H + W. A point carries its own rounding,
-// kLocalRounding = 2 u, and that of one subtraction, u W: e = u (2 + W) in all. The faces are
-// widened instead (see `Octants`). Counts below are of first order; kSecondOrder covers the rest
-// and the bounds' own roundings, and the smallest normal number covers underflow.
+// the voxel's faces, both seen from the new origin, which itself has coordinates up to O; T = H +
+// W. A point carries its own rounding, u (O + W), and that of one subtraction, u W: e = u (O + 2 W)
+// in all, so that what lies near the frame's origin is told apart as finely as floats are dense
+// there. The faces are widened instead (see `Octants`). Counts below are of first order;
+// kSecondOrder covers the rest and the bounds' own roundings, and the smallest normal number covers
+// underflow.
 
 HWY_BEFORE_NAMESPACE();
 namespace nuvo::HWY_NAMESPACE {
@@ -36,13 +38,16 @@ struct Octants {
             high[axis] = static_cast<float>((voxel.bounds.max[axis] - cut) * (1 + 0x1p-22));
             origin[axis] = voxel.cut[axis];
             reach = std::max(reach, std::max(-low[axis], high[axis]));
+            farthest = std::max(farthest, std::fabs(origin[axis]));
         }
         reach += kSmallest;
+        farthest += kSmallest;
     }
     float low[3];
     float high[3];
     float origin[3];
-    float reach = 0;
+    float reach = 0;     // H
+    float farthest = 0;  // O
 };
 
 // For each octant the lanes that do not touch it.
@@ -114,11 +119,12 @@ HWY_INLINE Corners load_corners(const LocalTriangle* triangles, const Ints& offs
 }
 
 // The triangle's plane: m . (p - w0), m = e0 x e1. An edge's error is 2 e + u E <= 2 e', with
-// e' = u (2 + W + E); that of m 8 E e' + 4 u E^2; of the value 3 T (8 E e' + 4 u E^2), plus |m|_1 e
+// e' = u (O + 2 W + E); that of m 8 E e' + 4 u E^2; of the value 3 T (8 E e' + 4 u E^2), plus |m|_1
+// e
 // <= 6 E^2 e, plus 6 roundings of terms of |m|_1 T in all <= 36 u E^2 T.
 HWY_INLINE void clear_by_plane(const Corners& c, const Octants& octants, Cleared& cleared) {
     const Floats t = c.widest + octants.reach;
-    const Floats e = c.widest + c.longest + 2.0F;
+    const Floats e = c.widest + c.widest + c.longest + octants.farthest;
     const Floats bound =
         mul_add(c.longest * Floats(kSecondOrder * kFloatRoundoff),
                 mul_add(Floats(24.0F) * t, e, Floats(6.0F) * c.longest * (e + Floats(8.0F) * t)),
@@ -154,7 +160,7 @@ HWY_INLINE void clear_by_plane(const Corners& c, const Octants& octants, Cleared
 HWY_INLINE void clear_by_projection(const Corners& c, const Octants& octants, int a, int b,
                                     Cleared& cleared) {
     const Floats t = c.widest + octants.reach;
-    const Floats e = c.widest + 2.0F;
+    const Floats e = c.widest + c.widest + octants.farthest;
     const Floats size = c.longest;
     const Floats bound = mul_add(
         Floats(kSecondOrder * kFloatRoundoff),
@@ -195,7 +201,8 @@ void clear_triangles(const LocalTriangle* triangles, const CutVoxel& voxel,
 
 // Squared distances of an octant's nearest and farthest point from the centre against the squared
 // radius. A distance on an axis has the error e + u (W + H) of its subtraction, added or taken off;
-// the radius has kLocalRounding; 16 u covers the roundings of squares and sums.
+// the radius has its rounding, u; 16 u covers the roundings of squares and sums, and of the
+// widened radius.
 void clear_spheres(const LocalSphere* spheres, std::uint32_t first, const CutVoxel& voxel,
                    std::span<const std::uint32_t> items, std::uint8_t* masks) {
     const Octants octants(voxel);
@@ -209,8 +216,9 @@ void clear_spheres(const LocalSphere* spheres, std::uint32_t first, const CutVox
             widest = max(widest, abs(center[axis]));
         }
         const Floats radius = Floats::gather(&spheres->radius, offset);
-        const Floats error =
-            Floats(kSecondOrder * kFloatRoundoff) * (widest + widest + (2.0F + octants.reach));
+        const Floats error = mul_add(Floats(kSecondOrder * kFloatRoundoff),
+                                     widest + widest + widest + (octants.farthest + octants.reach),
+                                     Floats(kSmallest));
         Floats near[3][2];
         Floats far[3][2];
         for (int axis = 0; axis < 3; ++axis) {
@@ -227,10 +235,13 @@ void clear_spheres(const LocalSphere* spheres, std::uint32_t first, const CutVox
                 far[axis][side] = far[axis][side] * far[axis][side];
             }
         }
-        const Floats outer = radius + kLocalRounding;
-        const Floats inner = max(radius - kLocalRounding, zero);
-        const Floats most = outer * outer * Floats(1 + 16 * kFloatRoundoff);
-        const Floats least = inner * inner * Floats(1 - 16 * kFloatRoundoff);
+        const Floats outer = mul_add(radius, Floats(2 * kFloatRoundoff), radius) + kSmallest;
+        const Floats inner =
+            max(neg_mul_add(radius, Floats(2 * kFloatRoundoff), radius) - kSmallest, zero);
+        const Floats most =
+            mul_add(outer * outer, Floats(1 + 16 * kFloatRoundoff), Floats(kSmallest));
+        const Floats least =
+            mul_add(inner * inner, Floats(1 - 16 * kFloatRoundoff), Floats(-kSmallest));
         Cleared cleared;
         for (unsigned o = 0; o < 8; ++o) {
             const unsigned x = o & 1;

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <span>
 
-#include "nuvo/math/error_bounds.h"
 #include "nuvo/octree/compact_build.h"
 
 namespace nuvo {
@@ -17,11 +16,6 @@ struct LocalSphere {
     Vec3<float> center;
     float radius;
 };
-
-/// How far a rounded local coordinate lies from the true one: local coordinates are at most a
-/// little above 1, where float's unit roundoff is 2^-24 relative to values up to 2 (half a unit in
-/// the last place), and double's 2^-53 is less than what is left to spare.
-inline constexpr float kLocalRounding = 2 * kFloatRoundoff;
 
 /// Clears in masks[i] the octants whose closed box triangles[items[i]] surely does not touch:
 /// the separating axes of Akenine-Moeller (2001) as edge functions, after Schwarz and Seidel
