@@ -243,7 +243,9 @@ TEST(ShadowPlanes, NeverContradictTheExactPredicateWhereTheyAreSure) {
             if (max_norm(local) > 1) continue;  // the bounds are those of the scene's box
             const float p[3] = {static_cast<float>(local.x), static_cast<float>(local.y),
                                 static_cast<float>(local.z)};
-            const float error = tables.plane_error() + static_cast<float>(2 * kFloatRoundoff);
+            // P itself is rounded.
+            const float size = std::max(static_cast<float>(max_norm(local)), tables.dense());
+            const float error = tables.plane_error() + (kPlaneError + static_cast<float>(2 * kFloatRoundoff)) * size;
             const float depth = tables.hides(l, slot) ? hidden(tables.planes(l)[slot], p) : -1;
             if (std::fabs(depth) <= error) continue;
             const bool endless = light.kind == Light::Kind::kDirectional;

@@ -17,6 +17,8 @@ constexpr std::size_t kCrowd = kSamples / 16;
 // and is by this factor narrower than the scene: less is not worth the bit that a scene off 0
 // loses.
 constexpr double kFarNarrower = 64;
+// Below this share of the scene doubles tell little more than floats.
+constexpr double kLeastDense = 0x1p-24;
 
 // Centres of items, evenly over the document.
 std::vector<Point3> sample(const Primitives& primitives) {
@@ -57,9 +59,12 @@ LocalFrame local_frame(const Primitives& primitives, const Bounds3& box) {
     LocalFrame frame;
     frame.center = box.center();
     double half = max_norm(box.max * 0.5 - box.min * 0.5);
+    double dense = half / 4;
     const Bounds3 crowd = densest(sample(primitives), box);
-    if (max_norm(crowd.max * 0.5 - crowd.min * 0.5) < half / kFarNarrower) {
+    const double crowd_half = max_norm(crowd.max * 0.5 - crowd.min * 0.5);
+    if (crowd_half < half / kFarNarrower) {
         frame.center = crowd.center();
+        dense = std::max(2 * crowd_half, half * kLeastDense);
         half = 2 * half;
     }
     int exponent = 0;
@@ -68,6 +73,7 @@ LocalFrame local_frame(const Primitives& primitives, const Bounds3& box) {
     if (half > 0)
         frame.scale =
             std::ldexp(1.0, std::min(-exponent, std::numeric_limits<double>::max_exponent - 1));
+    frame.dense = dense * frame.scale;
     return frame;
 }
 

@@ -11,6 +11,8 @@ namespace nuvo {
 struct LocalFrame {
     Point3 center;
     double scale = 1;  ///< a power of two
+    /// Coordinates up to this are as good as 0: a quarter of the scene's, or as wide as that place.
+    double dense = 0.25;
 
     /// Three roundings at most: of the difference, in units of the larger operand; none of the
     /// product unless it is subnormal.

@@ -91,13 +91,18 @@ class SurfaceFiller {
         const Floats low = Floats::load(tile_.near_low + first);
         const Floats high = Floats::load(tile_.near_high + first);
         const Floats t = reciprocal((low + high) * Floats(0.5F));
-        for (int axis = 0; axis < 3; ++axis)
-            mul_add(t, directions.at(axis), Floats(static_cast<float>(tables_.camera.origin[axis])))
-                .store(tile_.point[axis] + first);
+        Floats largest(0.0F);
+        for (int axis = 0; axis < 3; ++axis) {
+            const Floats x = mul_add(t, directions.at(axis),
+                                     Floats(static_cast<float>(tables_.camera.origin[axis])));
+            x.store(tile_.point[axis] + first);
+            largest = max(largest, abs(x));
+        }
         const Floats w = (high - low) * t;
         const Floats half = mul_add(w, w, w) * Floats(0.51F * tables_.rays.longest);
         const Floats error =
-            mul_add(t, half + Floats(bounds.point_by_t), Floats(bounds.point_constant));
+            mul_add(t, half + Floats(bounds.point_by_t),
+                    mul_add(largest, Floats(2 * kFloatRoundoff), Floats(bounds.point_constant)));
         select(w < Floats(1.0F), error, Floats(kInfinity)).store(tile_.point_error + first);
     }
 

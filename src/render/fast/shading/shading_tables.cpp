@@ -245,17 +245,15 @@ void add_lights(ShadingTables& tables) {
 void bound_points(ShadingTables& tables) {
     const ShadingRays& rays = tables.rays;
     ShadingBounds& bounds = tables.bounds;
-    // P = o + t d: roundings of o and of the sum; of 1 / near and the mean that is near (3.2 u)
-    // and of the product.
-    constexpr double kSceneRadius = 1.75;  // the box is within 1 of 0 on each axis
+    // P = o + t d: the rounding of o, and of the sum, which is added with P [fill_points]; of
+    // 1 / near and the mean that is near (3.2 u) and of the product.
     const double world = world_rounding(tables.scene, tables.scene.scene().camera.position);
-    bounds.point_constant = rounded_up(
-        kSlack * (kFloatRoundoff * (length(tables.camera.origin) + kSceneRadius) + world));
+    bounds.point_constant =
+        rounded_up(kSlack * (kFloatRoundoff * length(tables.camera.origin) + world));
     bounds.point_by_t =
         rounded_up(kSlack * (4.2 * kFloatRoundoff * static_cast<double>(rays.longest) +
                              static_cast<double>(rays.error)));
-    // Of a sphere's centre and of a point's last sum.
-    bounds.sphere_point_error = rounded_up(kSlack * (kFloatRoundoff * 2 * kSceneRadius + world));
+    bounds.world_rounding = rounded_up(kSlack * world);
 }
 
 std::vector<BackgroundBand> bands(const std::vector<Color>& colors,

@@ -117,10 +117,10 @@ struct ShadingBackground {
 
 /// How far floats may be off in one picture.
 struct ShadingBounds {
-    float point_constant = 0;  ///< |P in float - P| <= this + t (point_by_t + ...)
+    float point_constant = 0;  ///< |P in float - P| <= this + t (point_by_t + ...) + P's rounding
     float point_by_t = 0;
-    float sphere_point_error = 0;  ///< of a sphere's points, without its normal's part
-    float color_error = 0;         ///< of interpolated colors, times 255
+    float world_rounding = 0;  ///< what P itself may be off for being rounded in world space
+    float color_error = 0;     ///< of interpolated colors, times 255
 };
 
 struct ShadingTables {

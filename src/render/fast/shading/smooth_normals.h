@@ -187,9 +187,11 @@ class SmoothNormalLanes {
             normal[i] = n * Floats(turn);
         }
         store_normal(normal, known, Floats(kSphereNormalError));
-        // P: of centre and sum, and the radius's times the normal's and two more.
-        const float error =
-            (kSphereNormalError + 3 * kFloatRoundoff) * radius + tables_.bounds.sphere_point_error;
+        // P: of centre and sum, which is at most the radius more, and the radius's times the
+        // normal's and two more.
+        const float error = (kSphereNormalError + 4 * kFloatRoundoff) * radius +
+                            3 * kFloatRoundoff * static_cast<float>(length(center - Point3{})) +
+                            tables_.bounds.world_rounding;
         store_point(point, known, error);
     }
 

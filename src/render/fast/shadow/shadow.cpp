@@ -64,9 +64,7 @@ class ShadowTracer {
             low[axis] = lowest(select(there, *at[axis], Floats(INFINITY)));
             high[axis] = highest(select(there, *at[axis], Floats(-INFINITY)));
         }
-        const float error = highest(select(there, block.error(), Floats(0.0F)));
-        const float slack =
-            (error + tables.plane_error()) * (1 + 4 * kFloatRoundoff) + 8 * kFloatRoundoff;
+        const float slack = highest(select(there, block.plane_error(), Floats(0.0F)));
         std::vector<OpenShadow>& open = context_.job.open;
         const std::size_t open_before = open.size();
         std::size_t tests = 0;

@@ -8,7 +8,7 @@
 namespace nuvo {
 namespace {
 
-// Four roundings of numbers up to 1 and more: of the light's place, of a difference and of a bound.
+// Four roundings: of the light's place, of a difference and of a bound.
 constexpr float kRounding = 4 * kFloatRoundoff;
 
 // Seen from a light nearby the rays to a box stay within its pyramid; from the box to the light
@@ -20,7 +20,8 @@ BeamBox from_light(const LightPoint& light, const float (&low)[3], const float (
     BeamBox beam;
     for (int axis = 0; axis < 3; ++axis) {
         const auto from = static_cast<float>(light.toward[axis] / light.weight);
-        const float rounding = kRounding * (std::fabs(from) + 2);
+        const float rounding =
+            kRounding * (std::fabs(from) + std::fmax(std::fabs(low[axis]), std::fabs(high[axis])));
         beam.origin_low[axis] = from - rounding;
         beam.origin_high[axis] = from + rounding;
         beam.direction_low[axis] = low[axis] - from - rounding - slack;

@@ -43,14 +43,20 @@ class ShadowBlock {
         points_ = {Floats::load(tile.point[0] + first_), Floats::load(tile.point[1] + first_),
                    Floats::load(tile.point[2] + first_)};
         error_ = Floats::load(tile.point_error + first_);
-        plane_error_ = (error_ + Floats(tables.plane_error())) * Floats(kRounded);
+        const Floats size =
+            max(max(abs(points_.x), abs(points_.y)), max(abs(points_.z), Floats(tables.dense())));
+        plane_error_ = mul_add(size, Floats(kPlaneError), error_ + Floats(tables.plane_error())) *
+                       Floats(kRounded);
         if (!tables.has_rounds()) return;
-        quadric_error_ = (error_ + error_ + Floats(tables.quadric_error())) * Floats(kRounded);
+        quadric_error_ =
+            mul_add(size, Floats(kQuadricError), error_ + error_ + Floats(tables.quadric_touch()));
         shadow_rays_ = ShadowRays(context.table.light, points_);
     }
 
     const Points& points() const { return points_; }
     const Floats& error() const { return error_; }
+    /// Beyond it the sign of a plane's function is sure.
+    const Floats& plane_error() const { return plane_error_; }
     /// The lanes that nothing has surely blocked yet.
     std::uint32_t waiting() const { return waiting_; }
     /// Ends the waiting of lanes.
@@ -93,15 +99,18 @@ class ShadowBlock {
     HWY_INLINE void test_round(const ShadowContext& context, Slot slot, std::uint32_t lanes) {
         const QuadricItem item(context.job.tables, context.table, slot);
         if (item.side == LightSide::kBlind) return;
-        const QuadricTest test(item, points_, shadow_rays_, quadric_error_);
+        const Floats error =
+            (quadric_error_ + Floats(kQuadricError * size_of(item.shape))) * Floats(kRounded);
+        const QuadricTest test(item, points_, shadow_rays_, error);
         block(test.blocked());
         const std::uint32_t open = waiting_ & lanes & ~test.free();
-        if (HWY_UNLIKELY(open != 0)) leave_round(context.job, slot, open, item, test);
+        if (HWY_UNLIKELY(open != 0)) leave_round(context.job, slot, open, item, test, error);
     }
     // Nor does a sphere where the ray to the light leads outwards. Its own points touch it, so they
     // come here unless their shadow rays lead deep into it.
     HWY_NOINLINE void leave_round(ShadowJob& job, Slot slot, std::uint32_t lanes,
-                                  const QuadricItem& item, const QuadricTest& test) {
+                                  const QuadricItem& item, const QuadricTest& test,
+                                  const Floats& error) {
         const std::uint32_t of_item = lanes & own(slot);
         std::uint32_t rounded =
             (test.square < Floats(item.shape.radius * item.shape.radius)).bits() & ~of_item;
@@ -112,7 +121,7 @@ class ShadowBlock {
             const Floats along =
                 mul_add(fx, shadow_rays_.x, mul_add(fy, shadow_rays_.y, fz * shadow_rays_.z));
             // Off by the ray's own error at one end, at most 1 away, and by the point's.
-            const Floats margin = mul_add(shadow_rays_.inverse, quadric_error_, quadric_error_);
+            const Floats margin = mul_add(shadow_rays_.inverse, error, error);
             const std::uint32_t outwards = (along < -margin).bits();
             const std::uint32_t inwards = (along > margin).bits();
             if (item.side == LightSide::kOutside) block(of_item & inwards);
@@ -120,7 +129,7 @@ class ShadowBlock {
             if (item.side == LightSide::kInside) {
                 // The ray ends inside: blocked iff it starts outside.
                 const Floats square = mul_add(fx, fx, mul_add(fy, fy, fz * fz));
-                const Floats less = max(Floats(item.shape.radius) - quadric_error_, Floats(0.0F));
+                const Floats less = max(Floats(item.shape.radius) - error, Floats(0.0F));
                 block(lanes & ~of_item & (square > test.outside).bits());
                 lanes &= ~(of_item | (square < less * less).bits());
             }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 #include "fast/scene/fast_scene.h"
@@ -35,6 +36,12 @@ struct Quadric {
     float center[3];
     float radius;
 };
+/// Its largest number.
+inline float size_of(const Quadric& quadric) {
+    float size = quadric.radius;
+    for (const float x : quadric.center) size = std::fmax(size, std::fabs(x));
+    return size;
+}
 
 /// Where a light stands towards a quadric; kBlind: it sees no front of it, or the shape casts
 /// no shadow.

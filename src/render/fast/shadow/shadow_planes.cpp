@@ -25,7 +25,8 @@ class PlanesMaker {
           toward_(wide(job.light.toward)),
           scale_(job.scene.frame().scale),
           weight_(job.light.weight),
-          size_(job.light.weight * job.reach + max_norm(job.light.toward)) {}
+          size_(job.light.weight * job.reach + max_norm(job.light.toward)),
+          dense_(job.scene.frame().dense) {}
 
     HWY_INLINE void make(const TriangleBatch& batch, Slot first, std::size_t count) {
         const Wide3 a = load_wide(batch.corner);
@@ -39,6 +40,7 @@ class PlanesMaker {
         const Wide3 from_a = local_a * weight_ - toward_;
         const Wide3 from_b = local_b * weight_ - toward_;
         const Wide3 normal = cross(e1, e2);
+        const Wide farthest = max(max_norm(local_a), max_norm(local_b));
         const Wide norm1_of_e1 = norm1(e1);
         const Wide norm1_of_e2 = norm1(e2);
         const Wide edges = norm1_of_e1 * norm1_of_e2;
@@ -49,10 +51,10 @@ class PlanesMaker {
             ~batch.shadowless & there;
         job_.hides[first / kBatch] = static_cast<std::uint8_t>(hides);
         if (hides == 0) return;
-        put(0, cross(e1, from_a), side, local_a, norm1_of_e1 * size_);
-        put(1, cross(from_a, e2), side, local_a, norm1_of_e2 * size_);
-        put(2, cross(e3, from_b), side, local_b, norm1(e3) * size_);
-        put(3, normal, Wide(0.0) - side, local_a, edges);
+        put(0, cross(e1, from_a), side, local_a, norm1_of_e1 * size_, farthest);
+        put(1, cross(from_a, e2), side, local_a, norm1_of_e2 * size_, farthest);
+        put(2, cross(e3, from_b), side, local_b, norm1(e3) * size_, farthest);
+        put(3, normal, Wide(0.0) - side, local_a, edges, farthest);
         // Where the light lies in the plane nothing is hidden from it.
         if (any_in_plane_)
             for (std::size_t i = 0; i < count; ++i)
@@ -63,7 +65,8 @@ class PlanesMaker {
 
   private:
     // A plane is kept where its normal's relative error is at most this, a quarter of a float's
-    // roundoff: the plane then lies within half a float roundoff of its place in the scene.
+    // roundoff, and where it moves the plane by at most so much of its distance from 0, or of
+    // LocalFrame::dense. [numerics: shadow planes]
     static constexpr double kShare = 0x1p-26;
     // Edges have one rounding, v at most four of size_; a component of their product two products
     // of these, and a difference: 2 (1 + 4 + 1) + 2 roundings; three components; a few to spare.
@@ -93,9 +96,12 @@ class PlanesMaker {
     }
 
     HWY_INLINE void put(std::size_t p, const Wide3& normal, const Wide& sign, const Wide3& on_it,
-                        const Wide& magnitude) {
+                        const Wide& magnitude, const Wide& farthest) {
         const Wide norm = norm1(normal);
-        const auto known = (norm > magnitude * Wide(kNormalError / kShare)) &
+        const Wide error = magnitude * Wide(kNormalError / kShare);
+        const Wide away = dot(normal, on_it);
+        const auto known = (norm > error) &
+                           (max(abs(away), norm * Wide(dense_)) > error * farthest) &
                            (norm > Wide(kSmallest)) & (norm < Wide(1 / kSmallest));
         const Wide zero(0.0);
         const Wide factor = select(known, sign / norm, zero);
@@ -112,6 +118,7 @@ class PlanesMaker {
     Wide scale_;
     Wide weight_;
     Wide size_;  // bounds |v|
+    double dense_;
     bool any_in_plane_ = false;
     alignas(64) double sides_[kBatch];
     RecordColumns columns_;  // by plane and component

@@ -11,15 +11,6 @@
 namespace nuvo {
 namespace {
 
-// n.P + w with |n|_1 = 1 and |P|, |w| <= reach. Coefficients: one rounding; w + z + y + x: four of
-// a term at most without fused operations; the plane itself is known to one roundoff of 2 reach:
-// 2 (1 + 4 + 1) of reach, and a few more.
-constexpr double kPlaneRoundings = 16;
-
-// In units of reach: center and point rounded and subtracted (6), the vector to the nearest point
-// of the line (12) at a parameter that is itself rounded (20), its square and the radius (13), the
-// direction to the light, which carries the roundings of both its ends (35).
-constexpr double kRoundRoundings = 128;
 // A surface that P touches passes within 2 sqrt(3) + 3/4 of P's error. [numerics: shadow ends]
 constexpr double kTouch = 8;
 // Bytes behind the last of ShadowTable::hides, which may be read.
@@ -67,7 +58,7 @@ LightPoint::LightPoint(const Light& light, const LocalFrame& frame) {
 
 ShadowTables::ShadowTables(const FastScene& scene, InstructionSet isa, int threads,
                            TableFilling filling)
-    : scene_(scene), isa_(isa), threads_(threads) {
+    : scene_(scene), isa_(isa), threads_(threads), dense_(rounded_up(scene.frame().dense)) {
     const Bounds3T<float>& box = scene.octree().bounds;
     reach_ = std::fmax(max_norm(box.min), max_norm(box.max));
     if (!std::isfinite(reach_)) reach_ = 1;  // an empty scene
@@ -75,10 +66,9 @@ ShadowTables::ShadowTables(const FastScene& scene, InstructionSet isa, int threa
     // an ellipsoid counts with its reach, at most twice these; and the roundings of the point.
     touch_ = 4 * surface_tolerance() * scene.largest_coordinate() * scene.frame().scale +
              kFloatUnderflow;
-    plane_error_ =
-        rounded_up(kPlaneRoundings * kFloatRoundoff * reach_ + 2 * touch_ + kFloatUnderflow);
-    quadric_error_ =
-        rounded_up(kRoundRoundings * kFloatRoundoff * reach_ + kTouch * touch_ + kFloatUnderflow);
+    plane_error_ = rounded_up(2 * touch_ + kFloatUnderflow);
+    quadric_touch_ = rounded_up(kTouch * touch_ + kFloatUnderflow);
+    quadric_error_ = rounded_up(kQuadricError * reach_ + quadric_touch_);
     quadrics_.resize(scene.slot_end() - scene.triangle_end());
     const std::vector<Light>& lights = scene.scene().lights;
     const auto casts = [](const Light& light) { return light.casts_shadow; };
@@ -175,7 +165,8 @@ LightSide ShadowTables::side(const LightPoint& light, const Quadric& shape,
     const Vector3 from{shape.center[0], shape.center[1], shape.center[2]};
     const double distance = length(from * light.weight - light.toward);
     const double radius = shape.radius * light.weight;
-    const double margin = 2 * quadric_error_ * light.weight + 4 * kFloatRoundoff * radius;
+    const double error = quadric_touch_ + kQuadricError * size_of(shape);
+    const double margin = 2 * error * light.weight + 4 * kFloatRoundoff * radius;
     if (distance > radius + margin) return LightSide::kOutside;
     if (!(distance < radius - margin)) return LightSide::kUnknown;
     const bool blind = scene_.front_only(object) && std::holds_alternative<Sphere>(object.shape);

@@ -8,9 +8,20 @@
 #include "fast/shadow/light_buffer.h"
 #include "fast/shadow/shadow_geometry.h"
 #include "nuvo/math/big_vector.h"
+#include "nuvo/math/error_bounds.h"
 #include "nuvo/render/fast.h"
 
 namespace nuvo {
+
+/// The sign of n.P + w is sure beyond so many roundings of P, and beyond P's own error.
+/// [numerics: shadow planes]
+inline constexpr float kPlaneError = 24 * kFloatRoundoff;
+
+/// In units of |P|, or of a quadric's |centre| or radius: center and point rounded and subtracted
+/// (6), the vector to the nearest point of the line (12) at a parameter that is itself rounded
+/// (20), its square and the radius (13), the direction to the light, which carries the roundings of
+/// both its ends (35).
+inline constexpr float kQuadricError = 128 * kFloatRoundoff;
 
 struct ShadowTable {
     explicit ShadowTable(const LightPoint& from) : light(from) {}
@@ -50,10 +61,15 @@ class ShadowTables {
     bool has_rounds() const { return !quadrics_.empty(); }
 
     /// Bounds |n.P + w - the true function at SurfacePoint::point|, evaluated in float, but for
-    /// what P's own error (on each axis) adds; and a lit point's SurfacePoint::error.
+    /// what P's own error (on each axis) and kPlaneError times |P| or `dense`, whichever is larger,
+    /// add; and a lit point's SurfacePoint::error.
     float plane_error() const { return plane_error_; }
+    /// LocalFrame::dense.
+    float dense() const { return dense_; }
+    /// Within this of a quadric the exact test may count it as touched.
+    float quadric_touch() const { return quadric_touch_; }
     /// Bounds how far a float segment from point to light lies from the true one within the scene,
-    /// but for twice P's own error; with a margin in which quadrics count as touched.
+    /// but for twice P's own error; with that margin.
     float quadric_error() const { return quadric_error_; }
 
     std::size_t memory_bytes() const;
@@ -69,7 +85,9 @@ class ShadowTables {
     int threads_;
     double reach_;  // largest |coordinate| of the scene's box in the local frame
     double touch_;  // bounds SurfacePoint::error, in the local frame
+    float dense_;
     float plane_error_;
+    float quadric_touch_;
     float quadric_error_;
     BigVector<Quadric> quadrics_;
     std::vector<ShadowTable> tables_;
