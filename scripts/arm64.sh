@@ -1,9 +1,11 @@
 #!/usr/bin/env bash
 # Builds the program for ARM64 with Debian's cross compiler and holds its pictures, drawn under qemu,
-# against those of this machine's program, byte by byte: scripts/arm64.sh [scene]...
+# against those of this machine's program, byte by byte: scripts/arm64.sh [--program=FILE] [scene]...
 set -euo pipefail
 source "$(dirname -- "${BASH_SOURCE[0]}")/setup.sh"
 
+here=
+if [[ ${1:-} == --program=* ]]; then here=$(realpath -- "${1#*=}"); shift; fi
 libraries=(libboost-dev libboost-chrono-dev libboost-program-options-dev libnlopt-cxx-dev libpng-dev
     zlib1g-dev libhwy-dev libgeos-c1v5) # libgeos-dev is of one architecture only
 if ! dpkg --print-foreign-architectures | grep -qx arm64; then
@@ -12,7 +14,10 @@ if ! dpkg --print-foreign-architectures | grep -qx arm64; then
 fi
 nuvo_install "${nuvo_packages[@]}" g++-aarch64-linux-gnu qemu-user-static
 nuvo_install "${libraries[@]/%/:arm64}"
-nuvo_build native nuvo
+if [ -z "$here" ]; then
+    nuvo_build native nuvo
+    here=$nuvo_root/build/native/nuvo
+fi
 
 build=$nuvo_root/build/arm64
 triple=aarch64-linux-gnu
@@ -32,7 +37,7 @@ differing=0
 for scene in "${scenes[@]}"; do
     for profile in exact fast thesis; do
         flags=("--file=$nuvo_root/testfiles/$scene" "--profile=$profile" --rep=1 --res=160,90 --quiet)
-        "$nuvo_root/build/native/nuvo" "${flags[@]}" "--out=$work/here.bmp" 2>/dev/null
+        "$here" "${flags[@]}" "--out=$work/here.bmp" 2>/dev/null
         qemu-aarch64-static "$build/nuvo" "${flags[@]}" "--out=$work/arm64.bmp" 2>/dev/null
         if cmp -s "$work/here.bmp" "$work/arm64.bmp"; then
             echo "same $scene $profile"

@@ -11,7 +11,8 @@ nuvo_packages=(cmake ninja-build g++ libboost-dev libboost-chrono-dev
 nuvo_missing_packages() {
     local package
     for package in "$@"; do
-        [ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null)" = installed ] ||
+        # One line for each architecture of a package.
+        dpkg-query -W -f='${db:Status-Status}\n' "$package" 2>/dev/null | grep -qx installed ||
             echo "$package"
     done
 }

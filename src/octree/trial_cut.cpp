@@ -40,21 +40,6 @@ std::size_t TrialCut::references() const {
     return sum;
 }
 
-SahTotals sums_after(SahTotals sums, const TrialCut& trial, std::size_t items) {
-    const double area = trial.voxel.bounds.surface_area();
-    sums.interior_area += area;
-    sums.leaf_area -= area;
-    sums.leaf_area_objects -= area * static_cast<double>(items);
-    sums.leaves += 7;
-    for (int digit = 1; digit <= 8; ++digit) {
-        const double octant_area = trial.voxel.octant(digit).surface_area();
-        const Items& octant = trial.octants[static_cast<std::size_t>(digit - 1)];
-        sums.leaf_area += octant_area;
-        sums.leaf_area_objects += octant_area * static_cast<double>(octant.size());
-    }
-    return sums;
-}
-
 Cutter::Cutter(std::span<const Bounds3> boxes, const BuildOptions& options) : options_(options) {
     boxes_.reserve(boxes.size());
     for (const Bounds3& box : boxes) boxes_.push_back(box.inflated(options.margin));

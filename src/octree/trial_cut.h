@@ -20,9 +20,6 @@ struct TrialCut {
     std::size_t references() const;
 };
 
-/// The sums of eq. 10 with the voxel cut that was a leaf of so many items.
-SahTotals sums_after(SahTotals sums, const TrialCut& trial, std::size_t items);
-
 /// Cuts voxels: where, and which items lie in which octant.
 class Cutter {
   public:

@@ -258,6 +258,23 @@ TEST(Build, ThesisCostsCutNothingMoreOnceTheReferencesAreSpent) {
     EXPECT_EQ(build_octree(boxes, options).reference_count(), unlimited);
 }
 
+TEST(Build, MaxDepthIsTheNumberOfLevels) {
+    const auto boxes = random_boxes(3, 300, 1);
+    BuildOptions options;
+    for (const auto& worth :
+         {decltype(options.worth)(CalibratedCosts{}), decltype(options.worth)(MaxObjects{1}),
+          decltype(options.worth)(ThesisCosts{1201, 2, 100})}) {
+        options.worth = worth;
+        options.max_depth = kMaxLabelDigits + 1;
+        const int whole = build_octree(boxes, options).depth();
+        ASSERT_GE(whole, 3) << worth.index();
+        for (int depth = 1; depth < whole; ++depth) {
+            options.max_depth = depth;
+            EXPECT_EQ(build_octree(boxes, options).depth(), depth) << worth.index();
+        }
+    }
+}
+
 TEST(Build, StopsAtNineteenDigits) {
     // Two boxes that no cut above level 19 can tell apart.
     const double tiny = 0x1p-60;

@@ -1,0 +1,143 @@
+#!/usr/bin/env python3
+"""Changes single places of the code and sees whether the tests notice.
+
+usage: scripts/mutate.py [--room=geometry|octree|fast] [--mutants=N] [--seed=S] [--build=FOLDER] [--jobs=N]
+
+Draws N places (60) of a room's .cpp files with seed S (1), makes one change at each (a comparison, a sign, a
+constant, an error bound taken away, a statement left out), compiles that file alone, links the room's tests with
+it in place of the library's own, and runs them until one fails or the time is up. Needs the room's tests built in
+FOLDER (build/release). A change that does not compile is drawn again. Survivors are listed; docs/reliability.md
+answers them.
+"""
+import argparse
+import concurrent.futures
+import json
+import pathlib
+import random
+import re
+import shlex
+import subprocess
+import sys
+import tempfile
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+ROOMS = {  # the files, and the test programs that run one after the other
+    "geometry": (["src/geometry/*.cpp"], [["geometry_tests"], ["property_tests"], ["hard_tests"]]),
+    "octree": (["src/octree/*.cpp"], [["octree_tests"], ["property_tests"]]),
+    "fast": (["src/render/fast/scene/*.cpp", "src/render/fast/primary/*.cpp", "src/render/fast/shadow/*.cpp",
+              "src/render/fast/tile/*.cpp"], [["render_tests"], ["fuzz_tests"]]),
+}
+SWAPS = {" < ": " <= ", " <= ": " < ", " > ": " >= ", " >= ": " > ", " == ": " != ", " != ": " == ", " && ": " || ",
+         " || ": " && ", " + ": " - ", " - ": " + ", " * ": " / ", " / ": " * ", " += ": " -= ", " -= ": " += ",
+         "std::min(": "std::max(", "std::max(": "std::min(", "true": "false", "false": "true", "++": "--"}
+SWAP = re.compile("|".join(r"\b" + k + r"\b" if k.isalpha() else re.escape(k) for k in SWAPS))
+BOUND = re.compile(r"\b(gamma(?:_of<\w+>)?)\((\d+)\)")
+NUMBER = re.compile(r"(?<![\w.<])\d+(?![\w.>])")
+STATEMENT = re.compile(r"^\s*(?:[\w.\->\[\]]+\(.*\);|[\w.\->\[\]]+ [-+*|&]?= .*;|continue;|break;|return;)$")
+
+
+def places(path):
+    """All changes of a file: (line number, new line)."""
+    found = []
+    for number, line in enumerate(path.read_text().split("\n")):
+        code = line.split("//")[0]
+        if not code.strip() or re.match(r"\s*(#|static_assert|using|namespace|template|NUVO_|HWY_|\"|\*|/\*)", code):
+            continue
+        def add(match, text):
+            found.append((number, line[:match.start()] + text + line[match.end():]))
+        for match in SWAP.finditer(code):
+            add(match, SWAPS[match.group()])
+        for match in BOUND.finditer(code):
+            add(match, f"{match[1]}(0)")
+        for match in NUMBER.finditer(BOUND.sub(lambda m: " " * len(m[0]), code)):
+            add(match, str(int(match[0]) + 1))
+        if STATEMENT.match(code):
+            found.append((number, ""))
+    return found
+
+
+class Tester:
+    def __init__(self, build, programs, seconds):
+        self.build, self.seconds = build, seconds
+        self.compile = {pathlib.Path(c["file"]).resolve(): c["command"]
+                        for c in json.loads((build / "compile_commands.json").read_text())}
+        self.tests = []
+        for words in programs:
+            commands = subprocess.run(["ninja", "-C", str(build), "-t", "commands", f"tests/{words[0]}"],
+                                      check=True, capture_output=True, text=True).stdout.splitlines()
+            link = next(c for c in reversed(commands) if f"-o tests/{words[0]} " in c)
+            link = link[link.index("&& ") + 3:].rsplit(" && ", 1)[0] if link.startswith(": &&") else link
+            self.tests.append((link, words))
+
+    def judge(self, path, number, line):
+        """"killed by X", "survived" or "does not compile"."""
+        with tempfile.TemporaryDirectory() as folder:
+            lines = path.read_text().split("\n")
+            lines[number] = line
+            changed = pathlib.Path(folder, path.name)
+            changed.write_text("\n".join(lines))
+            words = shlex.split(self.compile[path])
+            words[words.index("-o") + 1] = f"{folder}/changed.o"
+            words[words.index("-c") + 1] = str(changed)
+            words = [w for w in words if "ccache" not in w] + ["-w", "-iquote", str(path.parent)]
+            if "HWY_" not in "\n".join(lines):
+                words.append("-O1")
+            if subprocess.run(words, cwd=self.build, capture_output=True).returncode != 0:
+                return "does not compile"
+            for link, program in self.tests:
+                command = shlex.split(link)
+                command[command.index("-o") + 1] = f"{folder}/tests"
+                command.insert(command.index("-o"), f"{folder}/changed.o")
+                done = subprocess.run(command, cwd=self.build, capture_output=True, text=True)
+                if done.returncode != 0:
+                    sys.exit(f"{path}: {done.stderr[-500:]}")
+                try:
+                    run = subprocess.run([f"{folder}/tests", "--gtest_fail_fast", "--gtest_brief=1", *program[1:]],
+                                         cwd=folder, capture_output=True, text=True, timeout=self.seconds)
+                except subprocess.TimeoutExpired:
+                    return f"killed by {program[0]}: no end"
+                if run.returncode != 0:
+                    failed = re.search(r"\[  FAILED  \] (\S+)", run.stdout)
+                    return f"killed by {failed[1] if failed else program[0] + ': a crash'}"
+        return "survived"
+
+
+def main():
+    parser = argparse.ArgumentParser(usage=__doc__.split("\n\n")[1][7:])
+    parser.add_argument("--room", choices=ROOMS, default="octree")
+    parser.add_argument("--mutants", type=int, default=60)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build/release")
+    parser.add_argument("--jobs", type=int, default=1)
+    parser.add_argument("--seconds", type=int, default=600, help="a run of tests ends after so many")
+    arguments = parser.parse_args()
+    files, programs = ROOMS[arguments.room]
+    all_places = [(path, *place) for pattern in files for path in sorted(ROOT.glob(pattern)) for place in places(path)]
+    random.Random(arguments.seed).shuffle(all_places)
+    tester = Tester(arguments.build.resolve(), programs, arguments.seconds)
+    print(f"{arguments.room}: {len(all_places)} places, seed {arguments.seed}")
+    begin, ends, survivors = time.process_time(), [], []
+
+    def judge(place):
+        result = tester.judge(*place)
+        path, number, line = place
+        print(f"{result}: {path.relative_to(ROOT)}:{number + 1}: {line.strip() or '(left out)'}", flush=True)
+        return place, result
+
+    with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
+        while all_places and len(ends) < arguments.mutants:
+            batch = [all_places.pop(0) for _ in range(min(len(all_places), arguments.mutants - len(ends)))]
+            for place, result in pool.map(judge, batch):
+                if result != "does not compile":
+                    ends.append(result)
+                if result == "survived":
+                    survivors.append(place)
+    killed = len(ends) - len(survivors)
+    print(f"{arguments.room}: {killed} of {len(ends)} killed ({100 * killed / len(ends):.0f} %); survivors:")
+    for path, number, line in survivors:
+        print(f"{path.relative_to(ROOT)}:{number + 1}\n  - {path.read_text().splitlines()[number].strip()}\n"
+              f"  + {line.strip() or '(left out)'}")
+
+
+main()
