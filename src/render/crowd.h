@@ -47,14 +47,15 @@ class Crowd {
             around->cells = std::make_unique<DirectionCells>(point);
             for (const ItemId item : items_) {
                 kernel_.add_to(*around->cells, item, boxes_of_items_[item]);
-                if (around->cells->size() > kRoom) {
+                if (around->cells->size() > DirectionCells::kRoom) {
                     around->cells.reset();  // and asked for no more
                     break;
                 }
             }
         }
         if (!around->cells) return std::nullopt;
-        return around->cells->towards(d);
+        return around->cells->towards(
+            d, [&](ItemId item) { kernel_.add_to(*around->cells, item, boxes_of_items_[item]); });
     }
     /// The ray surely meets none of the items.
     bool surely_missed(const ExactRay& ray) const { return hull_.surely_missed(ray); }

@@ -166,7 +166,11 @@ class ExactSearch {
                 counter_.count_primitives({front->first, front->first + 1});
                 if (hit) {
                     if (!best || kernel_.precedes(ray, *hit, *best)) best = hit;
-                    return test(ray, front->rivals, best);
+                    std::span<const ItemId> rivals = front->rivals;
+                    if (rivals.size() > Crowd<Kernel>::kLeast)
+                        if (const auto some = crowd.towards(ray.origin(), ray.direction()))
+                            if (some->size() < rivals.size()) rivals = *some;
+                    return test(ray, rivals, best);
                 }
             }
             const auto before = best;

@@ -115,8 +115,9 @@ TEST(Crowd, CellsLeaveOutNothingThatIsHit) {
             const Vector3 d = scales.towards(triangles[scales.below(triangles.size())], point);
             if (!finite(d) || d == Vector3{0, 0, 0}) continue;
             const ExactRay ray(Ray{point, d});
-            const auto some = cells.towards(d);
-            const auto by_box = of_boxes.towards(d);
+            const auto some = cells.towards(d, [&](ItemId i) { cells.add(i, triangles[i]); });
+            const auto by_box =
+                of_boxes.towards(d, [&](ItemId i) { of_boxes.add(i, triangles[i].bounds()); });
             asked += triangles.size();
             listed += some.size();
             for (std::size_t i = 0; i < triangles.size(); ++i) {
@@ -136,11 +137,43 @@ TEST(Crowd, CellsOfATriangleStraightAbove) {
     DirectionCells cells({0, 0, 0});
     cells.add(7, Triangle{{-0.1, -0.1, 1}, {0.1, -0.1, 1}, {0, 0.1, 1}});
     EXPECT_EQ(cells.size(), 4u);  // those that meet in the middle
-    EXPECT_EQ(cells.towards({0, 0, 1}).size(), 1u);
-    EXPECT_EQ(cells.towards({0, 0, 5e-324}).size(), 1u);
-    EXPECT_TRUE(cells.towards({0, 0, -1}).empty());
-    EXPECT_TRUE(cells.towards({0.5, 0, 1}).empty());
-    EXPECT_TRUE(cells.towards({1, 0, 0}).empty());
+    const auto towards = [&](const Vector3& d) {
+        return cells.towards(d, [](ItemId) { FAIL() << "one item is few"; });
+    };
+    EXPECT_EQ(towards({0, 0, 1}).size(), 1u);
+    EXPECT_EQ(towards({0, 0, 5e-324}).size(), 1u);
+    EXPECT_TRUE(towards({0, 0, -1}).empty());
+    EXPECT_TRUE(towards({0.5, 0, 1}).empty());
+    EXPECT_TRUE(towards({1, 0, 0}).empty());
+}
+
+// A thousand triangles in a narrow view: all in a few cells, until rays have asked for those.
+TEST(Crowd, CellsThatAreAskedForAreDivided) {
+    std::mt19937_64 random(11);
+    std::uniform_real_distribution<double> place(-0.1, 0.1);
+    DirectionCells cells({0, 0, 0});
+    std::vector<Triangle> triangles;
+    for (ItemId i = 0; i < 1000; ++i) {
+        const double x = place(random), y = place(random);
+        triangles.push_back({{x, y, 1}, {x + 0.002, y, 1}, {x, y + 0.002, 1}});
+        cells.add(i, triangles.back());
+    }
+    std::size_t first = 0, last = 0, hits = 0;
+    StageCounts counts;
+    for (int k = 0; k < 4000; ++k) {
+        const Vector3 d{place(random), place(random), 1};
+        const auto some = cells.towards(d, [&](ItemId i) { cells.add(i, triangles[i]); });
+        if (k < 10) first += some.size();
+        if (k >= 3990) last += some.size();
+        for (ItemId i = 0; i < 1000; ++i) {
+            if (!hit(ExactRay(Ray{{0, 0, 0}, d}), triangles[i], counts)) continue;
+            ++hits;
+            ASSERT_EQ(std::count(some.begin(), some.end(), i), 1) << "ray " << k << ", " << i;
+        }
+    }
+    EXPECT_GT(hits, 100u);
+    EXPECT_GT(first, 2000u);
+    EXPECT_LT(last, 200u);
 }
 
 }  // namespace
