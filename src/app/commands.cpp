@@ -47,9 +47,12 @@ void write_json(const Options& options, const Report& report) {
     if (options.json) image::write_file_atomically(*options.json, report_json(options, report));
 }
 
-void show_octree(const Scene& scene, const Profile& profile) {
+void show_octree(const Scene& scene, const Profile& profile, Meter& meter) {
     std::cout << name_of(kOctreeTypes, profile.type) << " octree\n";
-    print(std::cout, build_tree(scene, flatten(scene, profile.leaves), profile));
+    const Octree octree =
+        build_tree(scene, flatten(scene, profile.leaves), profile, meter.begin("building"));
+    meter.end();
+    print(std::cout, octree);
 }
 
 Profile with_type(Profile profile, OctreeType type) {
@@ -89,20 +92,21 @@ Options plain(Options options) {
 }
 
 // One more picture, of which nothing but the pixels is told.
-image::Difference error_of(const Image& picture, const Scene& scene, const Options& options) {
+image::Difference error_of(const Image& picture, const Scene& scene, const Options& options,
+                           Meter& meter) {
     Image exact;
-    run_pass(scene, plain(options), exact_like(options.profile), 1, exact);
+    run_pass(scene, plain(options), exact_like(options.profile), 1, meter, exact);
     return image::compare(picture, exact);
 }
 
 // From a picture of a 16th of the width and height.
-std::string brute_force_forecast(const Scene& scene, const Options& options) {
+std::string brute_force_forecast(const Scene& scene, const Options& options, Meter& meter) {
     constexpr int kShrink = 16;
     Options small = plain(options);
     small.resolution = {std::max(1, options.resolution.width / kShrink),
                         std::max(1, options.resolution.height / kShrink)};
     Image trial;
-    const Pass pass = run_brute_force(scene, small, trial);
+    const Pass pass = run_brute_force(scene, small, meter, trial);
     const auto pixels = [](Resolution r) {
         return static_cast<double>(r.width) * static_cast<double>(r.height);
     };
@@ -131,20 +135,22 @@ bool is_further_apart(const image::Difference& a, const image::Difference& b) {
 
 ExitCode render_command(const Options& options) {
     check_terminal(options);
-    const LoadedScene loaded = load(options);
+    Meter meter(options.shows_progress());
+    const LoadedScene loaded = load(options, meter);
     const fs::path picture_path = chosen_picture(options, loaded);
     std::vector<fs::path> outputs = look_files(options, picture_path, "");
     outputs.push_back(picture_path);
     check_outputs({loaded.path}, with_json(outputs, options));
-    if (options.show_octree) show_octree(loaded.scene, options.profile);
+    if (options.show_octree) show_octree(loaded.scene, options.profile, meter);
 
     Report report = begin_report(loaded);
     Image picture;
     report.passes.push_back(
-        run_pass(loaded.scene, options, options.profile, options.repetitions, picture));
+        run_pass(loaded.scene, options, options.profile, options.repetitions, meter, picture));
     for (const std::string& remark : report.passes.back().remarks)
         std::cerr << "nuvo: note: " << remark << '\n';
-    if (options.error) report.error = error_of(picture, loaded.scene, options);
+    if (options.error) report.error = error_of(picture, loaded.scene, options, meter);
+    meter.begin("writing");
     const StageStopwatch write;
     image::write_picture(picture_path, picture);
     report.write_seconds = write.seconds();
@@ -152,12 +158,14 @@ ExitCode render_command(const Options& options) {
     report.picture = picture_path.string();
     write_looks(options, picture_path, report.file, report.passes);
     write_json(options, report);
+    meter.end();
     print_report(options, report);
     return kDone;
 }
 
 ExitCode compare_command(const Options& options) {
-    const LoadedScene loaded = load(options);
+    Meter meter(options.shows_progress());
+    const LoadedScene loaded = load(options, meter);
     const fs::path picture_path = chosen_picture(options, loaded);
     const fs::path difference_path = difference_beside(picture_path);
     std::vector<fs::path> outputs{picture_path, difference_path};
@@ -170,19 +178,21 @@ ExitCode compare_command(const Options& options) {
     std::vector<Image> pictures;
     for (const auto& type : kOctreeTypes) {
         const Profile profile = with_type(options.profile, type.value);
-        if (options.show_octree) show_octree(loaded.scene, profile);
+        if (options.show_octree) show_octree(loaded.scene, profile, meter);
         report.passes.push_back(
-            run_pass(loaded.scene, options, profile, 1, pictures.emplace_back()));
+            run_pass(loaded.scene, options, profile, 1, meter, pictures.emplace_back()));
     }
     if (options.profile.tracer == TracerChoice::kTiles) {
         report.passes.push_back(run_pass(loaded.scene, options, exact_like(options.profile), 1,
-                                         pictures.emplace_back()));
+                                         meter, pictures.emplace_back()));
         report.passes.back().name = "serial";
     }
     if (options.compare_brute_force) {
         if (!options.quiet)
-            report_stream(options) << brute_force_forecast(loaded.scene, options) << std::flush;
-        report.passes.push_back(run_brute_force(loaded.scene, options, pictures.emplace_back()));
+            report_stream(options)
+                << brute_force_forecast(loaded.scene, options, meter) << std::flush;
+        report.passes.push_back(
+            run_brute_force(loaded.scene, options, meter, pictures.emplace_back()));
     }
 
     std::size_t far_first = 0, far_second = 1;
@@ -197,6 +207,7 @@ ExitCode compare_command(const Options& options) {
             far_second = j;
         }
     }
+    meter.begin("writing");
     const StageStopwatch write;
     image::write_picture(picture_path, pictures[0]);
     image::write_picture(difference_path,
@@ -207,6 +218,7 @@ ExitCode compare_command(const Options& options) {
     report.difference = difference_path.string();
     write_looks(options, picture_path, report.file, report.passes);
     write_json(options, report);
+    meter.end();
     print_report(options, report);
     return furthest.equal() ? kDone : kPicturesDiffer;
 }
@@ -225,10 +237,13 @@ std::string answer_bytes(const Scene& scene, const Options& options, std::span<c
 }  // namespace
 
 ExitCode rays_command(const Options& options) {
-    const LoadedScene loaded = load(options);
+    Meter meter(options.shows_progress());
+    const LoadedScene loaded = load(options, meter);
+    meter.begin("reading the rays");
     const StageStopwatch read;
     const std::vector<Ray> rays = read_rays(*options.rays);
     const double read_wall_seconds = read.wall_seconds();
+    meter.end();
     std::vector<fs::path> outputs;
     if (options.out) outputs.emplace_back(*options.out);
     check_outputs({loaded.path, *options.rays}, with_json(outputs, options));
@@ -236,11 +251,12 @@ ExitCode rays_command(const Options& options) {
     Report report = begin_report(loaded);
     report.parse_wall_seconds += read_wall_seconds;
     std::vector<RayAnswer> answers;
-    report.passes.push_back(run_rays(loaded.scene, options, rays, answers));
+    report.passes.push_back(run_rays(loaded.scene, options, rays, meter, answers));
     report.rays = rays.size();
     report.hits = static_cast<std::size_t>(
         std::count_if(answers.begin(), answers.end(), [](const RayAnswer& a) { return a.hit; }));
 
+    meter.begin("writing");
     const StageStopwatch write;
     const std::string bytes = answer_bytes(loaded.scene, options, rays, answers);
     if (options.out) {
@@ -252,12 +268,14 @@ ExitCode rays_command(const Options& options) {
     report.write_seconds = write.seconds();
     report.write_wall_seconds = write.wall_seconds();
     write_json(options, report);
+    meter.end();
     if (options.out) print_report(options, report);  // else the answers have standard output
     return kDone;
 }
 
 ExitCode describe_command(const Options& options) {
-    const LoadedScene loaded = load(options);
+    Meter meter(options.shows_progress());
+    const LoadedScene loaded = load(options, meter);
     std::cout << description(loaded.name, loaded.scene, loaded.parse_seconds);
     return kDone;
 }

@@ -142,24 +142,27 @@ void write_looks(const Options& options, const fs::path& picture, const std::str
 }
 
 ExitCode pixel_command(const Options& options) {
-    const LoadedScene loaded = load(options);
+    Meter meter(options.shows_progress());
+    const LoadedScene loaded = load(options, meter);
     std::vector<fs::path> outputs;
     if (options.json) outputs.emplace_back(*options.json);
     if (options.octree) outputs.emplace_back(*options.octree);
     check_outputs({loaded.path}, outputs);
 
-    const Profile profile = walked_profile(loaded.scene, options);
+    const Profile profile = walked_profile(loaded.scene, options, meter);
     const Primitives primitives = flatten(loaded.scene, profile.leaves);
-    const Octree octree = build_tree(loaded.scene, primitives, profile);
+    const Octree octree = build_tree(loaded.scene, primitives, profile, meter.begin("building"));
     const Pixel pixel = *options.pixel;
     const PixelReport report{loaded.name, pixel.x, pixel.y, profile,
                              explain_pixel(loaded.scene, primitives, octree, profile,
                                            options.resolution, pixel.x, pixel.y)};
+    meter.begin("writing");
     if (options.octree)
         write_octree(*options.octree, *octree_format(*options.octree), octree, report.file);
     if (options.json)
         image::write_file_atomically(*options.json,
                                      pixel_json(options, loaded.scene, primitives, report));
+    meter.end();
     if (!options.quiet)
         (options.standard_output_taken() ? std::cerr : std::cout)
             << pixel_text(options, loaded.scene, primitives, report);

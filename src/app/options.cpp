@@ -91,12 +91,25 @@ bool wants_value(const std::string& word) {
     return false;
 }
 
+/// A flag's value that was forgotten: the next word is a flag, too. A value that looks like one can
+/// be given after =.
+void check_value(const std::string& flag, const std::string& value) {
+    const std::string name = value.substr(0, value.find('='));
+    const bool is_flag = std::any_of(flags().begin(), flags().end(), [&](const Flag& other) {
+        return name == "-" + other.name || name == "-h";
+    });
+    if (is_flag || value.starts_with("--"))
+        throw UsageError(flag + ": needs a value, and " + value + " is a flag (" + flag + "=" +
+                         value + " takes it as the value)");
+}
+
 /// The words that are neither flags nor their values, taken out of the arguments.
 std::vector<std::string> take_words(std::vector<std::string>& arguments) {
     std::vector<std::string> words, flagged;
     for (std::size_t i = 0; i < arguments.size(); ++i) {
         const std::string& word = arguments[i];
         const bool is_value = i > 0 && wants_value(arguments[i - 1]);
+        if (is_value) check_value(arguments[i - 1], word);
         const bool is_flag = word.size() > 1 && word.front() == '-';
         (is_value || is_flag ? flagged : words).push_back(word);
     }

@@ -19,27 +19,30 @@ void note(std::vector<double>& seconds, std::vector<double>& wall_seconds,
 /// One way to build and to render: an octree to be walked serially.
 class SerialRun {
   public:
-    SerialRun(const Scene& scene, const Options&, const Profile& profile)
+    SerialRun(const Scene& scene, const Options&, const Profile& profile, Meter& meter)
         : scene_(scene),
           profile_(profile),
+          meter_(meter),
+          progress_(meter.begin("building")),
           primitives_(flatten(scene, profile.leaves)),
-          octree_(build_tree(scene, primitives_, profile)) {}
+          octree_(build_tree(scene, primitives_, profile, progress_)) {}
 
     Image picture(Resolution resolution) {
-        return render(scene_, primitives_, octree_, profile_, resolution);
+        return render(scene_, primitives_, octree_, profile_, resolution, progress_);
     }
     std::vector<RayAnswer> answers(std::span<const Ray> rays) const {
-        return closest_hits(scene_, primitives_, &octree_, profile_, rays);
+        return closest_hits(scene_, primitives_, &octree_, profile_, rays, progress_);
     }
     void describe(Pass& pass) const { pass.tree = figures(octree_); }
     void count(Pass& pass, const Options& options) const {
+        meter_.begin("counting");
         if (options.wants_planes()) {
-            pass.planes =
-                record_planes(scene_, primitives_, &octree_, profile_, options.resolution);
+            pass.planes = record_planes(scene_, primitives_, &octree_, profile_, options.resolution,
+                                        progress_);
             pass.counts = pass.planes->counts;
         } else if (options.counters || options.json) {
-            pass.counts =
-                count_events(scene_, primitives_, octree_, profile_, options.traced_resolution());
+            pass.counts = count_events(scene_, primitives_, octree_, profile_,
+                                       options.traced_resolution(), progress_);
         }
     }
     /// Gives the octree away.
@@ -48,6 +51,8 @@ class SerialRun {
   private:
     const Scene& scene_;
     const Profile& profile_;
+    Meter& meter_;
+    Progress* progress_;
     Primitives primitives_;
     Octree octree_;
 };
@@ -61,11 +66,12 @@ Profile as_serial(Profile profile) {
 /// The other: the tile tracer.
 class TileRun {
   public:
-    TileRun(const Scene& scene, const Options& options, const Profile& profile)
+    TileRun(const Scene& scene, const Options& options, const Profile& profile, Meter& meter)
         : scene_(scene),
           walked_(as_serial(profile)),
+          meter_(meter),
+          options_(fast_options(options, profile, meter.begin("building"))),
           primitives_(flatten(scene, LeafContent::kPrimitives)),
-          options_(fast_options(options, profile)),
           tracer_(scene, primitives_, options_) {}
 
     Image picture(Resolution resolution) { return tracer_.render(resolution); }
@@ -77,13 +83,14 @@ class TileRun {
         pass.tiles = figures(tracer_, options_);
     }
     void count(Pass& pass, const Options& options) {
+        meter_.begin("counting");
         if (options.counters || options.json) {
             pass.tiles->counts = tracer_.count_rays(options.traced_resolution());
             tracer_.render(options.traced_resolution(), &pass.tiles->stage_seconds.emplace());
         }
         if (!options.wants_planes() && !options.octree) return;
         walked_.type = tracer_.octree_type();
-        walk_.emplace(scene_, options, walked_);
+        walk_.emplace(scene_, options, walked_, meter_);
         walk_->describe(pass);
         if (options.wants_planes()) walk_->count(pass, options);
     }
@@ -93,15 +100,16 @@ class TileRun {
   private:
     const Scene& scene_;
     Profile walked_;
-    Primitives primitives_;
+    Meter& meter_;
     FastOptions options_;
+    Primitives primitives_;
     FastTracer tracer_;
     std::optional<SerialRun> walk_;  // that others can look at
 };
 
 template <typename Run>
 Pass run_repeatedly(const Scene& scene, const Options& options, const Profile& profile,
-                    int repetitions, Image& picture) {
+                    int repetitions, Meter& meter, Image& picture) {
     Pass pass;
     pass.name = name_of(kOctreeTypes, profile.type);
     std::optional<Run> run;
@@ -109,18 +117,23 @@ Pass run_repeatedly(const Scene& scene, const Options& options, const Profile& p
     const ProcessStopwatch process;
     for (int i = 0; i < repetitions; ++i) {
         run.reset();
+        meter.begin_part("repetition", static_cast<std::size_t>(i) + 1,
+                         static_cast<std::size_t>(repetitions));
         const StageStopwatch build;
-        run.emplace(scene, options, profile);
+        run.emplace(scene, options, profile, meter);
         note(pass.build_seconds, pass.build_wall_seconds, build);
         picture = samples = Image();  // two pictures need not be held at once
+        meter.begin("tracing");
         const StageStopwatch trace;
         samples = run->picture(options.traced_resolution());
         if (options.samples > 1) picture = image::averaged(samples, options.samples);
         note(pass.trace_seconds, pass.trace_wall_seconds, trace);
     }
     pass.process = process.elapsed();
+    meter.end();
     run->describe(pass);
     run->count(pass, options);
+    meter.end();
     pass.remarks = remarks(scene, profile, samples,
                            [&](std::span<const Ray> rays) { return run->answers(rays); });
     if (options.samples == 1) picture = std::move(samples);
@@ -130,16 +143,18 @@ Pass run_repeatedly(const Scene& scene, const Options& options, const Profile& p
 
 template <typename Run>
 Pass answer_once(const Scene& scene, const Options& options, std::span<const Ray> rays,
-                 std::vector<RayAnswer>& answers) {
+                 Meter& meter, std::vector<RayAnswer>& answers) {
     Pass pass;
     pass.name = name_of(kOctreeTypes, options.profile.type);
     const ProcessStopwatch process;
     const StageStopwatch build;
-    const Run run(scene, options, options.profile);
+    const Run run(scene, options, options.profile, meter);
     note(pass.build_seconds, pass.build_wall_seconds, build);
+    meter.begin("answering");
     const StageStopwatch trace;
     answers = run.answers(rays);
     note(pass.trace_seconds, pass.trace_wall_seconds, trace);
+    meter.end();
     pass.process = process.elapsed();
     run.describe(pass);
     return pass;
@@ -147,15 +162,17 @@ Pass answer_once(const Scene& scene, const Options& options, std::span<const Ray
 
 }  // namespace
 
-Profile walked_profile(const Scene& scene, const Options& options) {
+Profile walked_profile(const Scene& scene, const Options& options, Meter& meter) {
     if (options.profile.tracer == TracerChoice::kSerial) return options.profile;
     Profile walked = as_serial(options.profile);
-    walked.type = TileRun(scene, options, options.profile).octree_type();
+    walked.type = TileRun(scene, options, options.profile, meter).octree_type();
+    meter.end();
     return walked;
 }
 
-FastOptions fast_options(const Options& options, const Profile& profile) {
+FastOptions fast_options(const Options& options, const Profile& profile, Progress* progress) {
     FastOptions fast;
+    fast.progress = progress;
     if (!type_is_measured(options)) fast.type = profile.type;
     fast.back_faces = profile.back_faces;
     fast.isa =
@@ -167,35 +184,39 @@ FastOptions fast_options(const Options& options, const Profile& profile) {
 }
 
 Pass run_pass(const Scene& scene, const Options& options, const Profile& profile, int repetitions,
-              Image& picture) {
+              Meter& meter, Image& picture) {
     if (profile.tracer == TracerChoice::kTiles)
-        return run_repeatedly<TileRun>(scene, options, profile, repetitions, picture);
-    return run_repeatedly<SerialRun>(scene, options, profile, repetitions, picture);
+        return run_repeatedly<TileRun>(scene, options, profile, repetitions, meter, picture);
+    return run_repeatedly<SerialRun>(scene, options, profile, repetitions, meter, picture);
 }
 
-Pass run_brute_force(const Scene& scene, const Options& options, Image& picture) {
+Pass run_brute_force(const Scene& scene, const Options& options, Meter& meter, Image& picture) {
     Pass pass;
     pass.name = "brute force";
     const Primitives primitives = flatten(scene, options.profile.leaves);
+    Progress* const progress = meter.begin("tracing by brute force");
     const ProcessStopwatch process;
     const StageStopwatch trace;
-    picture = render_brute_force(scene, primitives, options.profile, options.traced_resolution());
+    picture = render_brute_force(scene, primitives, options.profile, options.traced_resolution(),
+                                 progress);
     if (options.samples > 1) picture = image::averaged(picture, options.samples);
     note(pass.trace_seconds, pass.trace_wall_seconds, trace);
     pass.process = process.elapsed();
     if (options.wants_planes()) {
-        pass.planes =
-            record_planes(scene, primitives, nullptr, options.profile, options.resolution);
+        meter.begin("counting by brute force");
+        pass.planes = record_planes(scene, primitives, nullptr, options.profile, options.resolution,
+                                    progress);
         pass.counts = pass.planes->counts;
     }
+    meter.end();
     return pass;
 }
 
-Pass run_rays(const Scene& scene, const Options& options, std::span<const Ray> rays,
+Pass run_rays(const Scene& scene, const Options& options, std::span<const Ray> rays, Meter& meter,
               std::vector<RayAnswer>& answers) {
     if (options.profile.tracer == TracerChoice::kTiles)
-        return answer_once<TileRun>(scene, options, rays, answers);
-    return answer_once<SerialRun>(scene, options, rays, answers);
+        return answer_once<TileRun>(scene, options, rays, meter, answers);
+    return answer_once<SerialRun>(scene, options, rays, meter, answers);
 }
 
 }  // namespace nuvo::app

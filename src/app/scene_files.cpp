@@ -100,19 +100,21 @@ void place_camera(const Options& options, LoadedScene& loaded) {
 
 }  // namespace
 
-LoadedScene load(const Options& options) {
+LoadedScene load(const Options& options, Meter& meter) {
     LoadedScene loaded;
     const bool piped = options.file == kStandardStream;
     loaded.path = piped ? fs::path(kStandardStream) : find_scene(options.file);
     loaded.name = piped ? "standard input" : loaded.path.string();
-    const x3d::ReadOptions how{options.limits, options.headlight, options.viewpoint, options.strict,
-                               options.defaults()};
+    const x3d::ReadOptions how{options.limits, options.headlight,  options.viewpoint,
+                               options.strict, options.defaults(), meter.begin("reading")};
     const StageStopwatch watch;
     loaded.scene =
-        piped ? x3d::read_text(read_standard_input(options.limits.file_bytes), loaded.name, how)
+        piped ? x3d::read_text(read_standard_input(options.limits.file_bytes, how.progress),
+                               loaded.name, how)
               : x3d::read_file(loaded.path, how);
     loaded.parse_seconds = watch.seconds();
     loaded.parse_wall_seconds = watch.wall_seconds();
+    meter.end();
     for (const std::string& warning : loaded.scene.warnings)
         std::cerr << "nuvo: warning: " + one_line(loaded.name + ": " + warning) + '\n';
     place_camera(options, loaded);
@@ -120,12 +122,14 @@ LoadedScene load(const Options& options) {
     return loaded;
 }
 
-std::string read_standard_input(std::size_t most) {
+std::string read_standard_input(std::size_t most, Progress* progress) {
+    begin(progress, "bytes", 0);
     std::string text;
     std::vector<char> block(1 << 18);
     while (std::cin.read(block.data(), static_cast<std::streamsize>(block.size())),
            std::cin.gcount() > 0) {
         text.append(block.data(), static_cast<std::size_t>(std::cin.gcount()));
+        add(progress, static_cast<std::uint64_t>(std::cin.gcount()));
         if (text.size() > most)
             throw x3d::Error("standard input: file: is too large (limit " + std::to_string(most) +
                              ")");

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "meter.h"
 #include "nuvo/app/options.h"
 #include "nuvo/scene/scene.h"
 
@@ -18,7 +19,7 @@ struct LoadedScene {
 };
 
 /// Reads the scene that the options name; its warnings go to standard error. Throws x3d::Error.
-LoadedScene load(const Options& options);
+LoadedScene load(const Options& options, Meter& meter);
 
 /// Finds out now what would stop an output after a long render, or destroy an input. Throws
 /// UsageError and image::WriteError.
@@ -26,7 +27,7 @@ void check_outputs(const std::vector<std::filesystem::path>& inputs,
                    const std::vector<std::filesystem::path>& outputs);
 
 /// All of standard input. Throws x3d::Error where it is longer than `most` bytes.
-std::string read_standard_input(std::size_t most);
+std::string read_standard_input(std::size_t most, Progress* progress = nullptr);
 
 bool is_regular(const std::filesystem::path& path);
 

@@ -1,12 +1,11 @@
 #include "nuvo/app/study.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <iostream>
 #include <random>
 #include <sstream>
 
+#include "meter.h"
 #include "nuvo/app/choices.h"
 #include "nuvo/app/clocks.h"
 #include "nuvo/app/commands.h"
@@ -103,14 +102,18 @@ struct Truth {
 };
 
 /// The same by the tile tracer, which tells its picture only.
-void measure_tiles(const Scene& scene, Resolution resolution, StudyRow& row, Truth* shown) {
+void measure_tiles(const Scene& scene, Resolution resolution, Meter& meter, StudyRow& row,
+                   Truth* shown) {
+    Progress* const progress = meter.begin("building");
     const StageStopwatch build;
     const Primitives primitives = flatten(scene, LeafContent::kPrimitives);
     FastOptions options;
     options.type = row.what.answers.type;
     options.back_faces = row.what.answers.back_faces;
+    options.progress = progress;
     FastTracer tracer(scene, primitives, options);
     row.build_seconds.push_back(build.seconds());
+    meter.begin("tracing");
     const StageStopwatch trace;
     Image picture = tracer.render(resolution);
     row.trace_seconds.push_back(trace.seconds());
@@ -118,19 +121,23 @@ void measure_tiles(const Scene& scene, Resolution resolution, StudyRow& row, Tru
 }
 
 /// Builds and traces a case once; what it shows only where `shown` asks.
-void measure(const Scene& scene, Resolution resolution, StudyRow& row, Truth* shown) {
+void measure(const Scene& scene, Resolution resolution, Meter& meter, StudyRow& row, Truth* shown) {
     const Profile& profile = row.what.answers;
-    if (profile.tracer == TracerChoice::kTiles) return measure_tiles(scene, resolution, row, shown);
+    if (profile.tracer == TracerChoice::kTiles)
+        return measure_tiles(scene, resolution, meter, row, shown);
+    Progress* const progress = meter.begin("building");
     const StageStopwatch build;
     const Primitives primitives = flatten(scene, profile.leaves);
-    const Octree octree = build_tree(scene, primitives, profile);
+    const Octree octree = build_tree(scene, primitives, profile, progress);
     row.build_seconds.push_back(build.seconds());
+    meter.begin("tracing");
     const StageStopwatch trace;
-    Image picture = render(scene, primitives, octree, profile, resolution);
+    Image picture = render(scene, primitives, octree, profile, resolution, progress);
     row.trace_seconds.push_back(trace.seconds());
     if (shown == nullptr) return;
     shown->picture = std::move(picture);
-    shown->facts = render_facts(scene, primitives, octree, profile, resolution);
+    meter.begin("tracing once more for facts");
+    shown->facts = render_facts(scene, primitives, octree, profile, resolution, progress);
 }
 
 void compare_with(const Truth& truth, const Truth& shown, StudyRow& row) {
@@ -147,25 +154,6 @@ void compare_with(const Truth& truth, const Truth& shown, StudyRow& row) {
     row.wrong_primitives = wrong_primitives;
     row.wrong_shadows = wrong_shadows;
 }
-
-/// A study takes minutes: on a terminal it says how far it is.
-class Progress {
-  public:
-    explicit Progress(bool wanted) : shown_(wanted && ::isatty(STDERR_FILENO) != 0) {}
-    ~Progress() {
-        if (shown_) std::cerr << "\r\033[K";
-    }
-    Progress(const Progress&) = delete;
-    Progress& operator=(const Progress&) = delete;
-    void say(int round, int rounds, std::size_t row, std::size_t rows) const {
-        if (shown_)
-            std::cerr << "\rround " << round + 1 << '/' << rounds << ", row " << row + 1 << '/'
-                      << rows << "\033[K" << std::flush;
-    }
-
-  private:
-    bool shown_;
-};
 
 }  // namespace
 
@@ -204,18 +192,20 @@ void mark_frontier(std::vector<StudyRow>& rows) {
 std::vector<StudyRow> run_study(const Scene& scene, const Options& options) {
     std::vector<StudyRow> rows;
     for (StudyCase& what : study_cases(options.profile)) rows.emplace_back().what = std::move(what);
-    const Progress progress(!options.quiet);
+    Meter meter(options.shows_progress());
+    const auto rounds = static_cast<std::size_t>(options.repetitions);
     Truth truth, shown;
     for (int round = 0; round < options.repetitions; ++round) {
         for (std::size_t i = 0; i < rows.size(); ++i) {
-            progress.say(round, options.repetitions, i, rows.size());
+            meter.begin_part("picture", static_cast<std::size_t>(round) * rows.size() + i + 1,
+                             rounds * rows.size());
             if (round > 0) {
                 // Every other round backwards, so that a machine that slows down does so for all.
-                measure(scene, options.resolution, rows[round % 2 == 0 ? i : rows.size() - 1 - i],
-                        nullptr);
+                measure(scene, options.resolution, meter,
+                        rows[round % 2 == 0 ? i : rows.size() - 1 - i], nullptr);
                 continue;
             }
-            measure(scene, options.resolution, rows[i], i == 0 ? &truth : &shown);
+            measure(scene, options.resolution, meter, rows[i], i == 0 ? &truth : &shown);
             if (i > 0) compare_with(truth, shown, rows[i]);
         }
     }
@@ -229,7 +219,10 @@ std::vector<StudyRow> run_study(const Scene& scene, const Options& options) {
 }
 
 ExitCode study_command(const Options& options) {
-    const LoadedScene loaded = load(options);
+    const LoadedScene loaded = [&] {
+        Meter meter(options.shows_progress());
+        return load(options, meter);
+    }();
     if (options.study_json) check_outputs({loaded.path}, {*options.study_json});
     const std::vector<StudyRow> rows = run_study(loaded.scene, options);
     const std::string& file = loaded.name;

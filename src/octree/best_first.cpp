@@ -13,6 +13,7 @@ Octree BestFirstBuilder::build() {
     std::vector<ItemId> all(finder_.item_count());
     std::iota(all.begin(), all.end(), ItemId{0});
     references_ = all.size();
+    begin_progress(options_, references_);
     add({Voxel::centered(finder_.root())}, std::move(all));
     while (!offers_.empty() && references_ < options_.max_references) {
         const NodeIndex best = offers_.top().node;
@@ -41,6 +42,7 @@ void BestFirstBuilder::cut(NodeIndex index) {
     const Leaf leaf = std::exchange(leaves_[index], {});
     references_ += leaf.cut->references();
     references_ -= leaf.items.size();
+    nuvo::add(options_.progress, leaf.cut->references() - leaf.items.size());
     const Label label = nodes_[index].label;
     const Voxel voxel = leaf.cut->voxel;
     nodes_[index].voxel = voxel;

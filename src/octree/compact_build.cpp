@@ -118,7 +118,7 @@ CompactOctree build_compact_octree(std::span<const Bounds3T<float>> boxes,
         plan = make_plan(root, recipe);
     }
     tree.rule = recipe.rule;
-    carry_out(plan, recipe);
+    carry_out(plan, recipe, options.progress);
     const Ranges ranges(plan, tree);
     tree.nodes.shrink_to_fit();
     tree.items.resize(ranges.item_count());

@@ -144,16 +144,22 @@ double references_beside(CutRule other, const std::vector<PlanNode>& plan, const
     return of_other > 0 ? static_cast<double>(references) / static_cast<double>(of_other) : 1;
 }
 
-void carry_out(std::vector<PlanNode>& plan, const Recipe& recipe) {
+void carry_out(std::vector<PlanNode>& plan, const Recipe& recipe, Progress* progress) {
     std::vector<PlanNode*> tasks;
-    for (PlanNode& node : plan)
-        if (!node.split) tasks.push_back(&node);
+    std::size_t items = 0;
+    for (PlanNode& node : plan) {
+        if (node.split) continue;
+        tasks.push_back(&node);
+        items += node.items.size();
+    }
+    begin(progress, "primitives", items);
     std::vector<SubtreeBuilder> builders;
     for (int i = 0; i < recipe.threads; ++i) builders.emplace_back(recipe);
     for_each_index(recipe.threads, tasks.size(), [&](std::size_t i, int thread) {
         PlanNode& node = *tasks[i];
         node.subtree = builders[static_cast<std::size_t>(thread)].build(node.place, node.items);
         node.cost = node.subtree.cost;
+        add(progress, node.items.size());
     });
     const Prices& prices = recipe.prices;
     for (std::size_t i = plan.size(); i-- > 0;) {

@@ -6,6 +6,7 @@
 
 #include "compact_subtree.h"
 #include "nuvo/math/big_vector.h"
+#include "nuvo/math/progress.h"
 
 namespace nuvo {
 
@@ -28,6 +29,6 @@ std::vector<PlanNode> make_plan(const Place& root, const Recipe& recipe);
 double references_beside(CutRule other, const std::vector<PlanNode>& plan, const Recipe& recipe);
 
 /// Builds the subtrees and takes back what does not pay.
-void carry_out(std::vector<PlanNode>& plan, const Recipe& recipe);
+void carry_out(std::vector<PlanNode>& plan, const Recipe& recipe, Progress* progress);
 
 }  // namespace nuvo

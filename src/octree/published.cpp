@@ -39,6 +39,7 @@ Octree PublishedBuilder::build() {
     std::iota(all.begin(), all.end(), ItemId{0});
     add_leaf(totals_, root_area_, all.size());
     references_ = all.size();
+    begin_progress(options_, references_);
     subdivide(0, all);
     return Octree(std::move(nodes_), std::move(leaf_items_), depth_tried_);
 }
@@ -90,6 +91,7 @@ std::optional<TrialCut> PublishedBuilder::kept_cut(const Node& node, const Items
     totals_ = after;
     references_ += trial->references();
     references_ -= items.size();
+    add(options_.progress, trial->references() - items.size());
     return trial;
 }
 

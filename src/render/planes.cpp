@@ -71,26 +71,26 @@ struct HitWriter {
 }  // namespace
 
 TraceCounts count_events(const Scene& scene, const Primitives& primitives, const Octree& octree,
-                         const Profile& profile, Resolution resolution) {
+                         const Profile& profile, Resolution resolution, Progress* progress) {
     return counted(
         scene, primitives, &octree, profile,
-        [&](const auto&, auto& tracer, const TraceCounts&) { tracer.image(resolution); });
+        [&](const auto&, auto& tracer, const TraceCounts&) { tracer.image(resolution, progress); });
 }
 
 PixelPlanes record_planes(const Scene& scene, const Primitives& primitives, const Octree* octree,
-                          const Profile& profile, Resolution resolution) {
+                          const Profile& profile, Resolution resolution, Progress* progress) {
     PixelPlanes planes;
     const auto record = [&](const auto& kernel, auto& tracer, const TraceCounts& counts) {
         const RayGenerator rays(scene.camera, resolution);
-        const auto pixels = static_cast<std::size_t>(resolution.width) *
-                            static_cast<std::size_t>(resolution.height);
+        const std::size_t pixels = pixel_count(resolution);
+        begin(progress, "pixels", pixels);
         planes.tests.reserve(pixels);
         planes.searches.reserve(pixels);
         planes.t.reserve(pixels);
         planes.shape.reserve(pixels);
         planes.triangle.reserve(pixels);
         planes.stage.reserve(pixels);
-        for (int y = 0; y < resolution.height; ++y)
+        for (int y = 0; y < resolution.height; ++y) {
             for (int x = 0; x < resolution.width; ++x) {
                 const TraceCounts before = counts;
                 const PredicateCounts stages = stages_of(kernel);
@@ -105,6 +105,8 @@ PixelPlanes record_planes(const Scene& scene, const Primitives& primitives, cons
                     static_cast<std::uint32_t>(counts.voxel_searches - before.voxel_searches));
                 planes.stage.push_back(last_stage(stages, stages_of(kernel)));
             }
+            add(progress, static_cast<std::uint64_t>(resolution.width));
+        }
     };
     planes.counts = counted(scene, primitives, octree, profile, record);
     return planes;

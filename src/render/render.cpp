@@ -114,10 +114,13 @@ bool primitive_overlaps(const Scene& scene, const PrimitiveSource& source, const
 
 template <typename Kernel, typename Search>
 std::vector<RayAnswer> answers(const Scene& scene, const Kernel& kernel, Search search,
-                               std::span<const Ray> rays) {
+                               std::span<const Ray> rays, Progress* progress) {
+    constexpr std::size_t kTold = 1024;
     std::vector<RayAnswer> out;
     out.reserve(rays.size());
+    begin(progress, "rays", rays.size());
     for (const Ray& ray : rays) {
+        if (out.size() % kTold == kTold - 1) add(progress, kTold);
         const auto hit = search.closest(kernel.prepare(ray));
         RayAnswer answer;
         answer.t = std::numeric_limits<double>::infinity();
@@ -155,8 +158,10 @@ struct FactsObserver {
 
 }  // namespace
 
-Octree build_tree(const Scene& scene, const Primitives& primitives, const Profile& profile) {
+Octree build_tree(const Scene& scene, const Primitives& primitives, const Profile& profile,
+                  Progress* progress) {
     BuildOptions options;
+    options.progress = progress;
     options.midpoint = midpoint_strategy(profile);
     std::span<const Bounds3> boxes(primitives.item_boxes);
     std::vector<Bounds3> published_boxes;
@@ -190,32 +195,36 @@ Octree build_tree(const Scene& scene, const Primitives& primitives, const Profil
 }
 
 Image render(const Scene& scene, const Primitives& primitives, const Octree& octree,
-             const Profile& profile, Resolution resolution) {
+             const Profile& profile, Resolution resolution, Progress* progress) {
     return with_kernel(scene, primitives, profile, [&](const auto& kernel) {
         return with_search(kernel, primitives, octree, profile, NoCounter{}, [&](auto search) {
-            return Tracer(scene, kernel, std::move(search)).image(resolution);
+            return Tracer(scene, kernel, std::move(search)).image(resolution, progress);
         });
     });
 }
 
 Image render_brute_force(const Scene& scene, const Primitives& primitives, const Profile& profile,
-                         Resolution resolution) {
+                         Resolution resolution, Progress* progress) {
     return with_kernel(scene, primitives, profile, [&](const auto& kernel) {
-        return Tracer(scene, kernel, BruteForceSearch(kernel, primitives)).image(resolution);
+        return Tracer(scene, kernel, BruteForceSearch(kernel, primitives))
+            .image(resolution, progress);
     });
 }
 
 std::vector<PixelFacts> render_facts(const Scene& scene, const Primitives& primitives,
                                      const Octree& octree, const Profile& profile,
-                                     Resolution resolution) {
+                                     Resolution resolution, Progress* progress) {
     std::vector<PixelFacts> facts;
+    begin(progress, "pixels", pixel_count(resolution));
     const RayGenerator rays(scene.camera, resolution);
     with_kernel(scene, primitives, profile, [&](const auto& kernel) {
         with_search(kernel, primitives, octree, profile, NoCounter{}, [&](auto search) {
             Tracer tracer(scene, kernel, std::move(search));
-            for (int y = 0; y < resolution.height; ++y)
+            for (int y = 0; y < resolution.height; ++y) {
                 for (int x = 0; x < resolution.width; ++x)
                     tracer.color(rays.ray(x, y), FactsObserver{facts.emplace_back()});
+                add(progress, static_cast<std::uint64_t>(resolution.width));
+            }
         });
     });
     return facts;
@@ -223,11 +232,12 @@ std::vector<PixelFacts> render_facts(const Scene& scene, const Primitives& primi
 
 std::vector<RayAnswer> closest_hits(const Scene& scene, const Primitives& primitives,
                                     const Octree* octree, const Profile& profile,
-                                    std::span<const Ray> rays) {
+                                    std::span<const Ray> rays, Progress* progress) {
     return with_kernel(scene, primitives, profile, [&](const auto& kernel) {
-        if (!octree) return answers(scene, kernel, BruteForceSearch(kernel, primitives), rays);
+        if (!octree)
+            return answers(scene, kernel, BruteForceSearch(kernel, primitives), rays, progress);
         return with_search(kernel, primitives, *octree, profile, NoCounter{}, [&](auto search) {
-            return answers(scene, kernel, std::move(search), rays);
+            return answers(scene, kernel, std::move(search), rays, progress);
         });
     });
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "nuvo/math/progress.h"
 #include "nuvo/render/render.h"
 #include "nuvo/render/shading.h"
 #include "surface_color.h"
@@ -24,12 +25,15 @@ class Tracer {
     Tracer(const Scene& scene, const Kernel& kernel, Search search)
         : scene_(scene), kernel_(kernel), search_(std::move(search)) {}
 
-    Image image(Resolution resolution) {
+    Image image(Resolution resolution, Progress* progress = nullptr) {
         Image image(resolution.width, resolution.height);
         const RayGenerator rays(scene_.camera, resolution);
-        for (int y = 0; y < resolution.height; ++y)
+        begin(progress, "pixels", pixel_count(resolution));
+        for (int y = 0; y < resolution.height; ++y) {
             for (int x = 0; x < resolution.width; ++x)
                 image.at(x, y) = quantized(color(rays.ray(x, y)));
+            add(progress, static_cast<std::uint64_t>(resolution.width));
+        }
         return image;
     }
 

@@ -164,7 +164,7 @@ std::string Documents::read_bytes(const fs::path& path) {
 Document& Documents::parse(std::string_view text, const std::string& name, const fs::path& folder) {
     refuse_other_formats(text, name);
     Document& document = documents_.emplace_back(name, folder, messages_.is_strict());
-    document.root = &parse_xml(text, name, limits_, document.names, document.arena);
+    document.root = &parse_xml(text, name, limits_, document.names, document.arena, progress_);
     messages_.add_document(name, *document.root);
     document.names.warn(messages_);
     document.scene = &find_scene(*document.root, messages_);

@@ -38,8 +38,8 @@ struct Document {
 /// A scene's files: the one that was asked for and what it Inlines, each read once.
 class Documents {
   public:
-    Documents(const Limits& limits, Messages& messages)
-        : limits_(limits), messages_(messages), made_{limits, messages} {}
+    Documents(const Limits& limits, Messages& messages, Progress* progress)
+        : limits_(limits), messages_(messages), progress_(progress), made_{limits, messages} {}
 
     /// Reads the scene and, unless it is given as text, the files that it Inlines from its own
     /// folder. Throws Error.
@@ -74,6 +74,7 @@ class Documents {
 
     const Limits& limits_;
     Messages& messages_;
+    Progress* progress_;
     MadeElements made_;
     std::filesystem::path home_;      // the scene's folder, canonical; empty: nothing is Inlined
     std::size_t bytes_ = 0;           // read so far

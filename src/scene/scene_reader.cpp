@@ -12,6 +12,7 @@ Scene SceneReader::read(const Document& document) {
     file_ = document.name;
     length_unit_ = document.units.length;
     scene_.objects.reserve(document.extent.shapes);
+    begin(options_.progress, "shapes", document.extent.shapes);
     if (documents_.has_levels()) find_camera_first(*document.scene);
     read_children(*document.scene, {});
     check_viewpoint();
@@ -179,6 +180,7 @@ void SceneReader::close_scopes(const Group& group, std::size_t first_object) {
 
 void SceneReader::read_shape(const Element& node, Group& group) {
     const auto shape_index = static_cast<std::uint32_t>(scene_.shape_count++);
+    add(options_.progress, 1);
     const Element* appearance = nullptr;
     const Element* geometry = nullptr;
     for (const Element& child : node.children) {

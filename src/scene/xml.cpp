@@ -45,8 +45,8 @@ struct Siblings {
 class Reader {
   public:
     Reader(const std::string& file, const std::vector<std::uint32_t>& lines, Names& names,
-           ElementArena& arena)
-        : file_(file), lines_(lines), names_(names), arena_(arena) {}
+           ElementArena& arena, Progress* progress)
+        : file_(file), lines_(lines), names_(names), arena_(arena), progress_(progress) {}
 
     /// Appends what `root` holds to the children of `parent`. No recursion: the document may be as
     /// deep as the limits allow.
@@ -79,6 +79,7 @@ class Reader {
     void read_run(const Outline& part, Siblings& siblings) {
         const ptree tree = parse({"<run>", part.run, "</run>"}, part.line);
         append(tree.front().second, siblings);
+        add(progress_, part.run.size());
     }
 
     void read_tag(const Outline& part, Siblings& siblings) {
@@ -132,16 +133,18 @@ class Reader {
     const std::vector<std::uint32_t>& lines_;
     Names& names_;
     ElementArena& arena_;
+    Progress* progress_;
     std::size_t next_line_ = 0;
 };
 
 }  // namespace
 
 Element& parse_xml(std::string_view text, const std::string& file, const Limits& limits,
-                   Names& names, ElementArena& arena) {
+                   Names& names, ElementArena& arena, Progress* progress) {
     const GuardedDocument document = guard_xml(text, file, limits);
+    begin(progress, "bytes", text.size());
     Element above;
-    Reader(file, document.lines, names, arena).read(document.root, above);
+    Reader(file, document.lines, names, arena, progress).read(document.root, above);
     return *above.children.first;
 }
 

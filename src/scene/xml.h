@@ -13,6 +13,6 @@ namespace nuvo::x3d {
 /// `arena` and whose names are kept in `names`. `file` stands for the document in messages. Returns
 /// the root. Throws Error.
 Element& parse_xml(std::string_view text, const std::string& file, const Limits& limits,
-                   Names& names, ElementArena& arena);
+                   Names& names, ElementArena& arena, Progress* progress);
 
 }  // namespace nuvo::x3d

@@ -55,6 +55,24 @@ TEST(Options, DefaultsAreTheThesis) {
     EXPECT_FALSE(options.out || options.rays || options.json);
 }
 
+// Of every flag that takes a value: a flag behind it is none.
+TEST(Options, AForgottenValueIsAUsageError) {
+    for (const Flag& flag : flags()) {
+        if (flag.value.empty() || flag.may_stand_alone()) continue;
+        for (const std::string given : {"--" + flag.name, "-" + flag.name})
+            for (const std::string next :
+                 {"--quiet", "--nosuch", "--rep=1", "-compare", "-quiet", "-h", "--", "-res=2,2"}) {
+                const std::string message = usage_error({given, next});
+                EXPECT_TRUE(contains(message, given + ": needs a value, and " + next)) << message;
+            }
+        EXPECT_FALSE(usage_error({"--" + flag.name}).empty());
+    }
+    EXPECT_EQ(parse({"--out", "-"}).out, "-");
+    EXPECT_EQ(parse({"--from", "-1,2,3"}).from, (Point3{-1, 2, 3}));
+    EXPECT_EQ(parse({"--planes", "-x"}).planes, "-x");
+    EXPECT_EQ(parse({"--planes=--quiet"}).planes, "--quiet");
+}
+
 TEST(Options, ThesisFlagsAreReadInAnyOrder) {
     std::vector<std::string> arguments{"--file=a b",        "--rep=15",    "--res=840,350",
                                        "--type=nonuniform", "-showoctree", "--midpoint=sweep"};

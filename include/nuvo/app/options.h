@@ -82,6 +82,8 @@ struct Options {
     bool wants_planes() const { return heatmap || planes; }
     /// Whether standard output is taken by bytes, so that the report goes to standard error.
     bool standard_output_taken() const;
+    /// Whether a person on a terminal may be told how far long works are.
+    bool shows_progress() const { return !quiet && !standard_output_taken(); }
     /// The resolution at which pictures are traced before samples are averaged.
     Resolution traced_resolution() const;
 };

@@ -5,6 +5,7 @@
 #include <span>
 #include <variant>
 
+#include "nuvo/math/progress.h"
 #include "nuvo/octree/cost.h"
 #include "nuvo/octree/midpoint.h"
 #include "nuvo/octree/octree.h"
@@ -32,7 +33,11 @@ struct BuildOptions {
     /// No voxel is cut once the leaves hold this many references to items: a bound on time and
     /// memory where items lie so close that cuts hardly part them. What it buys under constant
     /// prices grows with it: a larger budget goes on where a smaller one ends.
-    std::size_t max_references = std::numeric_limits<std::size_t>::max();
+    std::size_t max_references = kNoLimit;
+    /// In references, of `max_references`: many a tree is done with fewer.
+    Progress* progress = nullptr;
+
+    static constexpr std::size_t kNoLimit = std::numeric_limits<std::size_t>::max();
 };
 
 /// Cuts the box of all `boxes` into an octree. Under ThesisCosts, which depend on the leaves so
@@ -43,6 +48,13 @@ struct BuildOptions {
 /// coordinates, gives upper octants without width, which hold nothing. Nodes and items stand depth
 /// first in any case.
 Octree build_octree(std::span<const Bounds3> boxes, const BuildOptions& options = {});
+
+/// For the builders: tells `options.progress` of the tree of one leaf that lists all items.
+inline void begin_progress(const BuildOptions& options, std::size_t items) {
+    const bool endless = options.max_references == BuildOptions::kNoLimit;
+    begin(options.progress, "references", endless ? 0 : options.max_references);
+    add(options.progress, items);
+}
 
 /// Sums of a finished tree computed afresh, for comparison with the builder's running ones.
 SahTotals sah_totals(const Octree& octree);

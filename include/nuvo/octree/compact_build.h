@@ -6,6 +6,7 @@
 #include <span>
 
 #include "nuvo/math/bounds.h"
+#include "nuvo/math/progress.h"
 #include "nuvo/octree/compact.h"
 
 namespace nuvo {
@@ -43,6 +44,7 @@ struct CompactBuildOptions {
     /// in proportion to its items.
     double max_references_per_item = 8;
     double free_references = 0x1p21;  ///< 8 megabytes
+    Progress* progress = nullptr;
 };
 
 /// The octree of the items with these boxes (none empty; all together 2^-30 to 2^30 wide, best 1

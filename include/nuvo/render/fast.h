@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "nuvo/image/image.h"
+#include "nuvo/math/progress.h"
 #include "nuvo/math/ray.h"
 #include "nuvo/octree/compact.h"
 #include "nuvo/render/primitives.h"
@@ -33,6 +34,7 @@ struct FastOptions {
     /// exactness costs; pictures may then differ from the exact profile's.
     bool redo_exactly = true;
     BackFaces back_faces = BackFaces::kSolid;
+    Progress* progress = nullptr;  ///< of whatever the tracer is doing; outlives it
 };
 
 /// Bytes held by a FastTracer.

@@ -28,6 +28,7 @@ struct PixelPlanes {
 /// The planes behind render()'s picture, from one more run of the same walk, which remembers from
 /// pixel to pixel what that does; `octree` null: behind render_brute_force()'s.
 PixelPlanes record_planes(const Scene& scene, const Primitives& primitives, const Octree* octree,
-                          const Profile& profile, Resolution resolution);
+                          const Profile& profile, Resolution resolution,
+                          Progress* progress = nullptr);
 
 }  // namespace nuvo

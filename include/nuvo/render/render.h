@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "nuvo/image/image.h"
+#include "nuvo/math/progress.h"
 #include "nuvo/math/ray.h"
 #include "nuvo/octree/octree.h"
 #include "nuvo/render/primitives.h"
@@ -47,25 +48,27 @@ struct RayAnswer {
 };
 
 /// Builds the octree that `profile` asks for over the leaf items. Deterministic.
-Octree build_tree(const Scene& scene, const Primitives& primitives, const Profile& profile);
+Octree build_tree(const Scene& scene, const Primitives& primitives, const Profile& profile,
+                  Progress* progress = nullptr);
 
 /// Renders through the octree, serially. [thesis 4.1, 4.3]
 Image render(const Scene& scene, const Primitives& primitives, const Octree& octree,
-             const Profile& profile, Resolution resolution);
+             const Profile& profile, Resolution resolution, Progress* progress = nullptr);
 /// The same picture with every item tested against every ray.
 Image render_brute_force(const Scene& scene, const Primitives& primitives, const Profile& profile,
-                         Resolution resolution);
+                         Resolution resolution, Progress* progress = nullptr);
 /// The facts behind render()'s picture, by rows from the top.
 std::vector<PixelFacts> render_facts(const Scene& scene, const Primitives& primitives,
                                      const Octree& octree, const Profile& profile,
-                                     Resolution resolution);
+                                     Resolution resolution, Progress* progress = nullptr);
 /// Counts the events of render() in a run of its own, so that timed runs carry no counters.
 TraceCounts count_events(const Scene& scene, const Primitives& primitives, const Octree& octree,
-                         const Profile& profile, Resolution resolution);
+                         const Profile& profile, Resolution resolution,
+                         Progress* progress = nullptr);
 
 /// The closest hit of each ray; `octree` null means brute force.
 std::vector<RayAnswer> closest_hits(const Scene& scene, const Primitives& primitives,
                                     const Octree* octree, const Profile& profile,
-                                    std::span<const Ray> rays);
+                                    std::span<const Ray> rays, Progress* progress = nullptr);
 
 }  // namespace nuvo

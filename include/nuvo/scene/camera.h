@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "nuvo/math/ray.h"
@@ -13,6 +14,11 @@ struct Resolution {
 
     friend bool operator==(const Resolution&, const Resolution&) = default;
 };
+
+inline std::uint64_t pixel_count(Resolution resolution) {
+    return static_cast<std::uint64_t>(resolution.width) *
+           static_cast<std::uint64_t>(resolution.height);
+}
 
 /// What an X3D OrthoViewpoint shows, in lengths of the world to the right of its position and above
 /// it: low < high on both axes.

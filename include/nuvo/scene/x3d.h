@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "nuvo/math/progress.h"
 #include "nuvo/scene/defaults.h"
 #include "nuvo/scene/scene.h"
 
@@ -48,6 +49,7 @@ struct ReadOptions {
     /// throws Error.
     bool strict = false;
     Defaults defaults = {};
+    Progress* progress = nullptr;  ///< in bytes of each file, then in shapes
 };
 
 /// Reads an X3D file (XML encoding, perhaps packed by gzip; root X3D or a bare Scene) into world

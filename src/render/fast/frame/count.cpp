@@ -1,5 +1,6 @@
 #include "fast/frame/count.h"
 
+#include <algorithm>
 #include <memory>
 
 #include "fast/primary/primary.h"
@@ -27,7 +28,8 @@ std::uint64_t shadow_rays(const FastScene& scene, const ExactFallback& fallback,
 
 }  // namespace
 
-RayCounts count_rays(const FastScene& scene, InstructionSet isa, Resolution resolution) {
+RayCounts count_rays(const FastScene& scene, InstructionSet isa, Resolution resolution,
+                     Progress* progress) {
     const CameraRays camera(scene.scene().camera, resolution, scene.frame());
     const CameraTables tables(scene, camera, isa);
     const ExactFallback fallback(scene, camera);
@@ -35,7 +37,8 @@ RayCounts count_rays(const FastScene& scene, InstructionSet isa, Resolution reso
         std::make_unique<PrimaryJob>(PrimaryJob{scene, camera, tables, fallback, true, {}});
     const PrimaryStage primary(isa);
     RayCounts counts;
-    counts.primary_rays = std::uint64_t(resolution.width) * std::uint64_t(resolution.height);
+    counts.primary_rays = pixel_count(resolution);
+    begin(progress, "pixels", counts.primary_rays);
     const auto macro = std::make_unique<MacroTile>();
     Tile tile;
     for (macro->y = 0; macro->y < resolution.height; macro->y += kMacroSide) {
@@ -46,6 +49,8 @@ RayCounts count_rays(const FastScene& scene, InstructionSet isa, Resolution reso
                 counts.shadow_rays += shadow_rays(scene, fallback, tile);
             }
         }
+        const int rows = std::min(kMacroSide, resolution.height - macro->y);
+        add(progress, pixel_count({resolution.width, rows}));
     }
     return counts;
 }

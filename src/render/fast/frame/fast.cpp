@@ -28,8 +28,9 @@ bool is_near(const LocalFrame& frame, const Camera& camera) {
 
 // What the serial tracer needs of the same scene.
 struct SerialTree {
-    explicit SerialTree(const FastScene& fast)
-        : profile(exact_profile()), octree(build_tree(fast.scene(), fast.primitives(), profile)) {
+    SerialTree(const FastScene& fast, Progress* progress)
+        : profile(exact_profile()),
+          octree(build_tree(fast.scene(), fast.primitives(), profile, progress)) {
         profile.back_faces = fast.back_faces();
     }
 
@@ -42,7 +43,8 @@ struct SerialTree {
 struct FastTracer::State {
     State(const Scene& scene, const Primitives& primitives, const FastOptions& given)
         : options(with_isa(given)),
-          fast(scene, primitives, options.type, options.threads, options.back_faces) {}
+          fast(scene, primitives, options.type, options.threads, options.back_faces,
+               options.progress) {}
 
     BlockKeeper keeper;
     FastOptions options;
@@ -60,8 +62,9 @@ FastTracer& FastTracer::operator=(FastTracer&&) noexcept = default;
 Image FastTracer::render(Resolution resolution, FastTimes* times) {
     const FastScene& fast = state_->fast;
     if (!is_near(fast.frame(), fast.scene().camera)) {
-        const SerialTree tree(fast);
-        return nuvo::render(fast.scene(), fast.primitives(), tree.octree, tree.profile, resolution);
+        const SerialTree tree(fast, state_->options.progress);
+        return nuvo::render(fast.scene(), fast.primitives(), tree.octree, tree.profile, resolution,
+                            state_->options.progress);
     }
     Frame frame(fast, state_->options, resolution);
     state_->table_bytes = frame.memory_bytes();
@@ -73,16 +76,16 @@ std::vector<RayAnswer> FastTracer::closest_hits(std::span<const Ray> rays) const
     if (!single)
         single = std::make_unique<SingleRays>(state_->fast, state_->options.isa,
                                               state_->options.redo_exactly);
-    return single->closest_hits(rays);
+    return single->closest_hits(rays, state_->options.progress);
 }
 
 RayCounts FastTracer::count_rays(Resolution resolution) const {
     const FastScene& fast = state_->fast;
     if (is_near(fast.frame(), fast.scene().camera))
-        return nuvo::count_rays(fast, state_->options.isa, resolution);
-    const SerialTree tree(fast);
-    const TraceCounts counts =
-        count_events(fast.scene(), fast.primitives(), tree.octree, tree.profile, resolution);
+        return nuvo::count_rays(fast, state_->options.isa, resolution, state_->options.progress);
+    const SerialTree tree(fast, state_->options.progress);
+    const TraceCounts counts = count_events(fast.scene(), fast.primitives(), tree.octree,
+                                            tree.profile, resolution, state_->options.progress);
     return {counts.primary_rays, counts.shadow_rays};
 }
 

@@ -40,6 +40,13 @@ class StageClock {
     double last_;
 };
 
+std::uint64_t pixels_of(TilePlace place, Resolution size) {
+    const int x = place.column * kMacroSide;
+    const int y = place.row * kMacroSide;
+    return pixel_count(
+        {std::min(kMacroSide, size.width - x), std::min(kMacroSide, size.height - y)});
+}
+
 }  // namespace
 
 struct Frame::Tables {
@@ -144,10 +151,12 @@ Image Frame::render(FastTimes* times) {
     const auto threads = static_cast<std::size_t>(options_.threads);
     std::vector<FastTimes> spent(threads);
     std::vector<std::unique_ptr<Worker>> workers(threads);  // made by their threads
+    begin(options_.progress, "pixels", pixel_count(size));
     for_each_index(options_.threads, tiles.size(), [&](std::size_t i, int thread) {
         std::unique_ptr<Worker>& worker = workers[thread];
         if (!worker) worker = std::make_unique<Worker>(scene_, *tables_, options_);
         worker->trace(tiles[i], image, times ? &spent[thread] : nullptr);
+        add(options_.progress, pixels_of(tiles[i], size));
     });
     if (times != nullptr) {
         times->tables += table_seconds_;

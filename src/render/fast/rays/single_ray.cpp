@@ -47,9 +47,17 @@ SingleRays::SingleRays(const FastScene& scene, InstructionSet isa, bool redo_exa
     }
 }
 
-std::vector<RayAnswer> SingleRays::closest_hits(std::span<const Ray> rays) const {
+std::vector<RayAnswer> SingleRays::closest_hits(std::span<const Ray> rays,
+                                                Progress* progress) const {
+    constexpr std::size_t kTold = 64 * kRayBatch;
     std::vector<RayAnswer> answers(rays.size());
-    walk_(*this, rays, answers.data());
+    begin(progress, "rays", rays.size());
+    const std::size_t part = progress != nullptr ? kTold : rays.size();
+    for (std::size_t first = 0; first < rays.size(); first += part) {
+        const auto some = rays.subspan(first, std::min(part, rays.size() - first));
+        walk_(*this, some, answers.data() + first);
+        add(progress, some.size());
+    }
     return answers;
 }
 

@@ -33,7 +33,8 @@ class SingleRays {
     SingleRays(const FastScene& scene, InstructionSet isa, bool redo_exactly);
 
     /// What closest_hits() of the exact profile answers.
-    std::vector<RayAnswer> closest_hits(std::span<const Ray> rays) const;
+    std::vector<RayAnswer> closest_hits(std::span<const Ray> rays,
+                                        Progress* progress = nullptr) const;
 
     /// Bytes of nodes and leaves.
     std::size_t memory_bytes() const { return tree_.memory_bytes(); }

@@ -110,7 +110,8 @@ CompactOctree octree_of(const LocalItems& items, CompactBuildOptions options) {
 }  // namespace
 
 FastScene::FastScene(const Scene& scene, const Primitives& primitives,
-                     std::optional<OctreeType> type, int threads, BackFaces back_faces)
+                     std::optional<OctreeType> type, int threads, BackFaces back_faces,
+                     Progress* progress)
     : scene_(scene), primitives_(primitives), back_faces_(back_faces) {
     Bounds3 box;
     for (const KindSummary& kind : primitives.kinds) box = box.extended(kind.box);
@@ -127,6 +128,7 @@ FastScene::FastScene(const Scene& scene, const Primitives& primitives,
     options.rule = std::nullopt;
     if (type) options.rule = *type == OctreeType::kUniform ? CutRule::kSpatial : CutRule::kSweep;
     options.threads = threads;
+    options.progress = progress;
     LocalItems items = LocalItemsMaker(*this).make(options.threads);
     octree_ = octree_of(items, options);
     triangles_ = std::move(items.triangles);

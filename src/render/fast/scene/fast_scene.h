@@ -34,7 +34,7 @@ class FastScene {
   public:
     /// No type: whichever CompactBuildOptions::rule finds.
     FastScene(const Scene& scene, const Primitives& primitives, std::optional<OctreeType> type,
-              int threads, BackFaces back_faces = BackFaces::kSolid);
+              int threads, BackFaces back_faces = BackFaces::kSolid, Progress* progress = nullptr);
 
     const Scene& scene() const { return scene_; }
     const Primitives& primitives() const { return primitives_; }
