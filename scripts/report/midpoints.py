@@ -15,6 +15,7 @@ from pathlib import Path
 
 CHOSEN_ON = ["trianglemesh", "both", "concentric", "clumped", "teapot"]
 FAMILIES = ["aisles", "drift", "stadium", "sticks", "sizes", "floor", "meshes"]
+OTHERS = ["grid", "kd-tree", "bvh"]
 MESHES = ["terrain", "assembly"]
 FRAME_PIXELS = 1920 * 1080
 RESAMPLES = 2000
@@ -234,7 +235,7 @@ def break_even_table(runs, costs):
 
 def others_table(runs, costs):
     rows = []
-    for name in ("spatial", "sweep", "grid", "kd-tree", "bvh"):
+    for name in ["spatial", "sweep"] + OTHERS:
         tests, steps, times, builds, random_tests = [], [], [], [], []
         for (_, setting), run in runs.items():
             found = by_name(run)
@@ -301,6 +302,23 @@ def predict_table(runs, costs):
              correlation([(costs.work(r) / costs.work(b), t) for _, t, r, b in points])]]
     return table(["ratio to spatial of", "against that of", "correlation of logarithms"],
                  [[a, b, f"{c:.2f}"] for a, b, c in rows])
+
+
+def summary(runs, costs):
+    """One screen of the study, for the page of scripts/report.sh: medians of the scenes held out
+    with their intervals, the uniform octree's = 1."""
+    def held_out(name, what):
+        found = ratios(runs, costs, name, "spatial", "all held out", what)
+        return [round(value, 4) for value in interval(found)]
+    scenes = [s for s, setting in runs if setting == "program" and family_of(s) != "chosen on"]
+    total, wrong = identity(runs)
+    octree_methods = methods_of(runs, "program")
+    return {"scenes": len(scenes), "traced": total, "wrong": wrong,
+            "rows": [{"method": name,
+                      "work": held_out(name, costs.work) if name in octree_methods else None,
+                      "time": held_out(name, lambda row: min(row["trace_seconds"])),
+                      "build": held_out(name, lambda row: min(row["build_seconds"]))}
+                     for name in octree_methods + OTHERS]}
 
 
 def identity(runs):
@@ -411,7 +429,10 @@ def main():
     plots = {"cost": cost_plot(runs, costs), "sah": sah_plot(runs)}
     for name, content in plots.items():
         (arguments.results / f"{name}.svg").write_text(content)
+    screen = json.dumps(summary(runs, costs)) + "\n"
+    (arguments.results / "summary.json").write_text(screen)
     if arguments.docs:
+        (arguments.docs / "midpoint-summary.json").write_text(screen)
         put_into(arguments.docs / "midpoint-study.md", found)
         for name, content in plots.items():
             (arguments.docs / "images" / f"midpoint-{name}.svg").write_text(content)

@@ -25,6 +25,7 @@ from matplotlib import pyplot  # noqa: E402 (the backend comes first)
 
 HERE = pathlib.Path(__file__).parent / "page"
 COLORS = {"uniform": "#3b76c4", "nonuniform": "#d1701f"}
+MIDPOINTS = pathlib.Path(__file__).parents[2] / "docs/midpoint-summary.json"
 CHANGED = 0.02  # medians closer than this are the same whatever their p
 
 
@@ -63,6 +64,19 @@ def forest(analysis):
     plot.set_yticks(range(len(rows)), [f"{r['scene']}, {r['setting']}" for r in reversed(rows)])
     plot.set_xlabel("uniform / non-uniform, times as fast")
     return svg(figure, "forest")
+
+
+def midpoint_forest(study):
+    """Counted work of each way to choose a midpoint, the uniform octree's = 1."""
+    rows = [r for r in study["rows"] if r["work"] and r["method"] != "spatial"]
+    figure, [[plot]] = axes(height=0.6 + 0.22 * len(rows))
+    for y, row in enumerate(reversed(rows)):
+        plot.plot(row["work"][1:], [y, y], color=COLORS["nonuniform"], linewidth=2)
+        plot.plot(row["work"][0], y, "o", color=COLORS["nonuniform"])
+    plot.axvline(1, color="#808080", linewidth=0.8)
+    plot.set_yticks(range(len(rows)), [r["method"] for r in reversed(rows)])
+    plot.set_xlabel("counted work / that of the uniform octree")
+    return svg(figure, "midpoints")
 
 
 def raw_times(results):
@@ -237,6 +251,8 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("folder", type=pathlib.Path)
     parser.add_argument("--baseline", type=pathlib.Path, help="results.json of an earlier run")
+    parser.add_argument("--midpoints", type=pathlib.Path, default=MIDPOINTS,
+                        help="summary.json of scripts/study_midpoints.sh (the documented run)")
     parser.add_argument("--date", default="", help="said on the page; none: not said")
     arguments = parser.parse_args()
     folder = arguments.folder
@@ -248,6 +264,7 @@ def main():
     if arguments.baseline:
         baseline = compare_with(json.loads(arguments.baseline.read_text(encoding="utf-8")), document)
 
+    midpoints = json.loads(arguments.midpoints.read_text(encoding="utf-8"))
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE), trim_blocks=True,
                                      lstrip_blocks=True, undefined=jinja2.StrictUndefined,
                                      autoescape=True)
@@ -264,12 +281,13 @@ def main():
     viridis = "".join("%02x%02x%02x" % tuple(round(255 * c) for c in color[:3])
                       for color in matplotlib.colormaps["viridis"].colors)
     html = environment.get_template("template.html.j2").render(
-        document=document, date=arguments.date, titles=tables.TITLES, settings=tables.SETTINGS,
+        document=document, everything=dict(document, midpoints=midpoints), date=arguments.date, titles=tables.TITLES, settings=tables.SETTINGS,
         published=document["published"], rows=tables.ROWS, error_keys=tables.ERROR_KEYS,
         places={(r["setting"], r["scene"], r["type"]): i for i, r in enumerate(document["results"])},
         scenes=list(dict.fromkeys(frame["scene"])), verdict=verdicts(document),
         forest=forest(document["analysis"]), times=raw_times(document["results"]),
-        split=split(document["results"]), histograms=histograms(octrees),
+        split=split(document["results"]), midpoints=midpoints,
+        midpoint_forest=midpoint_forest(midpoints), histograms=histograms(octrees),
         studies={name: study_points(s) for name, s in document["studies"].items()},
         costs=costs(folder, looks), baseline=baseline, viridis=viridis, csv=frame.to_csv(index=False),
         rays=[name for name in looks if name.endswith("-ray")],
