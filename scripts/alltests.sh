@@ -51,7 +51,7 @@ nuvo_install "${nuvo_packages[@]}"
 nuvo_build release nuvo
 mkdir -p "$out/raw" "$out/look"
 out=$(cd -- "$out" && pwd)
-rm -f "$out"/raw/*.json "$out"/look/* "$out"/study-*.json
+rm -rf "$out"/raw/*.json "$out"/look/* "$out"/study-*.json
 
 settings=("thesis --profile=thesis" "exact --profile=exact")
 scenes=(trianglemesh both concentric clumped)
@@ -95,15 +95,17 @@ for scene in "${scenes[@]}"; do
         done
     done
 done
-# What the pictures cost and what the octrees look like, the dearest ray of each, and speed against
-# error: for the page, at the size of a screen.
+# What the pictures cost and what the octrees look like, the dearest rays of each, the thesis
+# profile's picture and what is right of it, and speed against error: for the page.
 look_at() {
-    local scene=$1 type=$2 name=$out/look/$1-$2 pixel
+    local scene=$1 type=$2 name=$out/look/$1-$2
     local flags=("--file=$nuvo_root/testfiles/$scene.x3d" --type="$type" --res=384,216 --rep=1 --quiet)
     "$nuvo" "${flags[@]}" --planes="$name" --octree="$name-octree.json" --out="$name.png" \
         --json="$name.json"
-    pixel=$(python3 "$nuvo_root/scripts/report/dearest_pixel.py" "$name-tests.npy")
-    "$nuvo" "${flags[@]}" --pixel="$pixel" --json="$name-ray.json"
+    python3 "$nuvo_root/scripts/report/trace_rays.py" 20 "$name" "$out/look/rays/$scene-$type.json" \
+        "$nuvo" "${flags[@]}"
+    "$nuvo" "${flags[@]}" --profile=thesis --out="$name-thesis.bmp"
+    "$nuvo" "${flags[@]}" --defaults=thesis --back-faces=draw --out="$name-right.bmp"
 }
 nuvo=$nuvo_root/build/release/nuvo
 if [ $look = yes ]; then

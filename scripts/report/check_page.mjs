@@ -63,6 +63,14 @@ for (const width of [1280, 390]) for (const scheme of ["light", "dark"]) {
   if (has.octrees) {
     const all = await colors("space");
     hold(where + "few colors of octrees " + all.kinds, all.kinds > 50);
+    const rays = await page.evaluate(() => (results.rays ?? {})[views[views.length - 1].octree.name]?.filter(r => r.end !== null).length ?? 0);
+    if (rays > 0) {
+      const choose = i => page.evaluate(i => { const e = document.getElementById("ray-choice"); e.value = i; e.dispatchEvent(new Event("input")); return window.raysShown; }, i);
+      hold(where + "not all rays are shown", await page.evaluate(() => window.raysShown) === rays);
+      const with_all = (await colors("space")).lit;
+      hold(where + "one ray is not shown alone", await choose(0) === 1 && (await colors("space")).lit !== with_all);
+      hold(where + "all rays do not come back", await choose(-1) === rays && (await colors("space")).lit === with_all);
+    }
     const voxels = await page.evaluate(() => window.voxels);
     for (const [name, count] of Object.entries(voxels)) hold(where + "voxels of " + name, document_.looks[name].tree.voxels === count);
     await (await page.$("#space")).scrollIntoView();
@@ -72,6 +80,13 @@ for (const width of [1280, 390]) for (const scheme of ["light", "dark"]) {
     await page.evaluate(() => { const e = document.getElementById("octree-depth"); e.value = 0; e.dispatchEvent(new Event("input")); });
     hold(where + "depth 0 draws as much", (await colors("space")).lit < all.lit / 4);
     await page.evaluate(() => { const e = document.getElementById("octree-depth"); e.value = 24; e.dispatchEvent(new Event("input")); });
+  }
+  if (width === 1280 && scheme === "light") {
+    await page.emulateMediaType("print");
+    hold(where + "print shows tools", await page.$$eval(".tool", all => all.every(e => e.getBoundingClientRect().height === 0)));
+    hold(where + "print lacks a panel", await page.$$eval("section[data-panel]", all => all.every(e => e.getBoundingClientRect().height > 0)));
+    hold(where + "no PDF", Buffer.from(await page.pdf()).subarray(0, 5).toString() === "%PDF-");
+    await page.emulateMediaType(null);
   }
   if (pictures) await page.screenshot({ path: `${pictures}/${width}-${scheme}.png`, fullPage: true });
   if (pictures && width === 1280 && scheme === "light") await page.pdf({ path: `${pictures}/print.pdf` });

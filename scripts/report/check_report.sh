@@ -33,8 +33,11 @@ for type in uniform nonuniform; do
     name=$work/look/both-$type
     "$nuvo" "${flags[@]}" --res=96,54 --rep=1 --planes="$name" --octree="$name-octree.json" \
         --out="$name.bmp" --json="$name.json"
-    "$nuvo" "${flags[@]}" --res=96,54 --json="$name-ray.json" \
-        --pixel="$(python3 "$here/dearest_pixel.py" "$name-tests.npy")"
+    PYTHONDONTWRITEBYTECODE=1 python3 "$here/trace_rays.py" 20 "$name" "$work/look/rays/both-$type.json" \
+        "$nuvo" "${flags[@]}" --res=96,54
+    "$nuvo" "${flags[@]}" --res=96,54 --rep=1 --profile=thesis --out="$name-thesis.bmp" --error \
+        --json="$work/error-$type.json"
+    "$nuvo" "${flags[@]}" --res=96,54 --rep=1 --defaults=thesis --back-faces=draw --out="$name-right.bmp"
 done
 "$nuvo" "--file=$root/testfiles/both" --res=48,27 --rep=1 --quiet "--study=$work/study-both.json"
 PYTHONDONTWRITEBYTECODE=1 python3 "$here/tables.py" "$work" --commit test >"$work/tables.txt" ||
@@ -68,6 +71,13 @@ fi
 cp "$work/index.html" "$work/first.html"
 "$root/scripts/report.sh" "$work" >/dev/null
 cmp "$work/first.html" "$work/index.html"
+# Wrong pixels as the program itself counts them, each with its crop.
+for type in uniform nonuniform; do
+    wrong=$(python3 -c 'import json, sys; print(json.load(open(sys.argv[1]))["error"]["differing_pixels"])' \
+        "$work/error-$type.json")
+    [ "$wrong" -gt 0 ] || fail "no wrong pixel to show"
+    grep -q "both-$type: $wrong wrong pixels of 96 x 54" "$work/index.html" || fail "not $wrong wrong pixels, $type"
+done
 count() { grep -o "<td>$1</td></tr>" "$work/index.html" | wc -l; }
 "$root/scripts/report.sh" "$work" "--baseline=$work/fast.json" >/dev/null
 [ "$(count slower)" -eq 2 ] || fail "a baseline ten times as fast: $(count slower) of 2 rows flagged"

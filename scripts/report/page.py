@@ -26,6 +26,7 @@ from matplotlib import pyplot  # noqa: E402 (the backend comes first)
 HERE = pathlib.Path(__file__).parent / "page"
 COLORS = {"uniform": "#3b76c4", "nonuniform": "#d1701f"}
 MIDPOINTS = pathlib.Path(__file__).parents[2] / "docs/midpoint-summary.json"
+CROP = 16  # pixels a side of the worst part of a picture
 CHANGED = 0.02  # medians closer than this are the same whatever their p
 
 
@@ -154,8 +155,11 @@ def study_points(study):
 
 def png(values):
     """Whole numbers below 2^24 as the red, green and blue of a PNG, which a canvas reads back."""
-    height, width = values.shape
-    bytes_ = numpy.stack([values >> 16, values >> 8, values], axis=2).astype(numpy.uint8)
+    return rgb_png(numpy.stack([values >> 16, values >> 8, values], axis=2).astype(numpy.uint8))
+
+
+def rgb_png(bytes_):
+    height, width, _ = bytes_.shape
     lines = numpy.concatenate([numpy.zeros((height, 1), numpy.uint8),
                                bytes_.reshape(height, 3 * width)], axis=1)
 
@@ -185,6 +189,41 @@ def costs(folder, looks):
                         "max": max(int(p.max()) for p in planes.values()),
                         "width": planes["uniform"].shape[1], "height": planes["uniform"].shape[0],
                         "png": {t: png(p.astype(numpy.uint32)) for t, p in planes.items()}})
+    return out
+
+
+def bmp(path):
+    """The pixels of a BMP file of nuvo, the top row first, as red, green and blue."""
+    data = path.read_bytes()
+    first, = struct.unpack_from("<I", data, 10)
+    width, height, _, bits = struct.unpack_from("<iiHH", data, 18)
+    if data[:2] != b"BM" or bits != 24 or height <= 0:
+        raise SystemExit(f"page.py: {path}: not a BMP file of 24 bits")
+    stride = (3 * width + 3) // 4 * 4
+    rows = numpy.frombuffer(data, numpy.uint8, stride * height, first).reshape(height, stride)
+    return rows[::-1, :3 * width].reshape(height, width, 3)[:, :, ::-1]
+
+
+def wrong_pixels(folder, looks):
+    """Of each picture of the thesis profile how many pixels are wrong, and its worst part."""
+    out = []
+    for name in looks:
+        paths = [folder / "look" / f"{name}-{kind}.bmp" for kind in ("right", "thesis")]
+        if not all(path.exists() for path in paths):
+            continue
+        right, thesis = (bmp(path) for path in paths)
+        apart = numpy.abs(right.astype(int) - thesis.astype(int))
+        wrong = apart.max(axis=2)
+        sums = numpy.pad(wrong.cumsum(0).cumsum(1), ((1, 0), (1, 0)))
+        high, wide = (min(CROP, side) for side in wrong.shape)
+        inside = sums[high:, wide:] - sums[:-high, wide:] - sums[high:, :-wide] + sums[:-high, :-wide]
+        y, x = numpy.unravel_index(inside.argmax(), inside.shape)
+        part = numpy.s_[y:y + high, x:x + wide]
+        scale = 255 / max(1, int(apart[part].max()))
+        out.append({"name": name, "count": int((wrong > 0).sum()), "most": int(wrong.max()),
+                    "width": wrong.shape[1], "height": wrong.shape[0], "x": int(x), "y": int(y),
+                    "pictures": {"right": rgb_png(right[part]), "thesis profile": rgb_png(thesis[part]),
+                                 "difference": rgb_png((apart[part] * scale).astype(numpy.uint8))}})
     return out
 
 
@@ -289,7 +328,7 @@ def main():
         split=split(document["results"]), midpoints=midpoints,
         midpoint_forest=midpoint_forest(midpoints), histograms=histograms(octrees),
         studies={name: study_points(s) for name, s in document["studies"].items()},
-        costs=costs(folder, looks), baseline=baseline, viridis=viridis, csv=frame.to_csv(index=False),
+        costs=costs(folder, looks), wrong=wrong_pixels(folder, looks), baseline=baseline, viridis=viridis, csv=frame.to_csv(index=False),
         rays=[name for name in looks if name.endswith("-ray")],
         octrees=[{k: v for k, v in o.items() if k != "leaves"} for o in octrees],
         css=(HERE / "page.css").read_text(encoding="utf-8"),

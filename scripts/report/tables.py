@@ -219,6 +219,12 @@ def looks(folder):
             if not path.stem.endswith("-octree")}
 
 
+def rays(folder):
+    """What trace_rays.py left, by picture."""
+    return {path.stem: json.loads(path.read_text(encoding="utf-8"))
+            for path in sorted((folder / "look" / "rays").glob("*.json"))}
+
+
 def studies(folder):
     return {path.stem.removeprefix("study-"): json.loads(path.read_text(encoding="utf-8"))
             for path in sorted(folder.glob("study-*.json"))}
@@ -239,6 +245,7 @@ def write_results(folder, results, groups, environment):
                      "runs": groups[key]} for key, figures in results.items()],
         "analysis": analysis(groups),
         "looks": looks(folder),
+        "rays": rays(folder),
         "studies": studies(folder),
     }
     text = json.dumps(document, indent=1, allow_nan=False) + "\n"

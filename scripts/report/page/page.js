@@ -114,6 +114,54 @@ function boxes(low, size, color, depth) {
   lines.frustumCulled = false;
   return lines;
 }
+/// Lines from point to point, two points each.
+function segments(points, tint) {
+  const geometry = new THREE.InstancedBufferGeometry();
+  geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(points), 3));
+  geometry.instanceCount = 1;
+  const material = new THREE.ShaderMaterial({
+    uniforms: { tint: { value: tint } },
+    vertexShader: "void main() { gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1); }",
+    fragmentShader: "uniform float tint[3]; void main() { gl_FragColor = vec4(tint[0], tint[1], tint[2], 1); }",
+  });
+  const lines = new THREE.LineSegments(geometry, material);
+  lines.frustumCulled = false;
+  return lines;
+}
+/// The rays of a view's octree, all or the chosen one with its voxels.
+function showRays(view) {
+  for (const lines of view.rays) {
+    view.world.remove(lines);
+    lines.geometry.dispose();
+    lines.material.dispose();
+  }
+  view.rays = [];
+  const rays = (results.rays ?? {})[view.octree.name] ?? [], chosen = Number(byId("ray-choice")?.value ?? -1);
+  const points = [], edges = [], places = new Map(view.names.map((name, i) => [name, i]));
+  const shown = chosen < 0 ? rays : rays.slice(chosen, chosen + 1);
+  for (const ray of shown) {
+    if (ray.end === null) continue;
+    points.push(...ray.origin, ...ray.origin.map((o, k) => o + ray.end * ray.direction[k]));
+  }
+  for (const name of chosen < 0 ? [] : shown.flatMap(ray => ray.voxels)) {
+    const at = 8 * places.get(name);
+    if (Number.isNaN(at)) continue;  // an empty voxel
+    for (let i = 0; i < kEdges.length; ++i) {
+      const k = i % 3;
+      edges.push(view.leaves[at + k] + kEdges[i] * (view.leaves[at + 3 + k] - view.leaves[at + k]));
+    }
+  }
+  if (points.length > 0) view.rays.push(segments(points, [1, 1, 1]));
+  if (edges.length > 0) view.rays.push(segments(edges, [1, 0.6, 0.2]));
+  for (const lines of view.rays) view.world.add(lines);
+  window.raysShown = points.length / 6;
+}
+function offerRays() {
+  const choice = byId("ray-choice"), rays = (results.rays ?? {})[views[0].octree.name] ?? [];
+  if (!choice) return;
+  choice.replaceChildren(new Option("all", -1),
+    ...rays.map((ray, i) => new Option(`pixel ${ray.pixel}: ${ray.tests} tests, ${ray.voxels.length} voxels`, i)));
+}
 const views = [];
 let renderer, camera, controls;
 async function loadOctrees() {
@@ -142,8 +190,10 @@ async function loadOctrees() {
     }
     const lines = boxes(low, size, color, depth);
     world.add(lines);
-    views.push({ octree, leaves, names, world, lines });
+    views.push({ octree, leaves, names, world, lines, rays: [] });
   }
+  offerRays();
+  views.forEach(showRays);
   const b = views[0].octree.bounds, middle = [0, 1, 2].map(k => (b[k] + b[k + 3]) / 2);
   const reach = Math.hypot(b[3] - b[0], b[4] - b[1], b[5] - b[2]);
   camera.near = reach / 1000;
@@ -207,6 +257,7 @@ if (octrees.length > 0) {
     byId("octree-choice").addEventListener("input", loadOctrees);
     byId("octree-color").addEventListener("input", loadOctrees);
     byId("octree-depth").addEventListener("input", draw);
+    byId("ray-choice")?.addEventListener("input", () => { views.forEach(showRays); draw(); });
     window.addEventListener("resize", draw);
     canvas.addEventListener("click", event => {
       const box = canvas.getBoundingClientRect();
