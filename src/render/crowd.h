@@ -92,14 +92,15 @@ class Crowd {
             usual_blocker_ = item;
             return true;
         };
-        std::optional<std::span<const ItemId>> some;
-        if (shadow.light->kind != Light::Kind::kDirectional)
-            some = towards(shadow.light->location, -shadow.ray.direction());
-        if (const std::vector<ItemId>* const list = blockers(shadow))
-            if (!some || list->size() < some->size()) some = *list;
-        if (some) return std::any_of(some->begin(), some->end(), blocks_now);
-        return boxes_.visit(
-            shadow.ray, [&] { return shadow.end; }, blocks_now);
+        const LeafBoxes* const shade = blockers(shadow);
+        if (shadow.light->kind != Light::Kind::kDirectional) {
+            const auto some = towards(shadow.light->location, -shadow.ray.direction());
+            if (some && (!shade || some->size() < shade->items().size()))
+                return std::any_of(some->begin(), some->end(), blocks_now);
+        }
+        return (shade ? *shade : boxes_)
+            .visit(
+                shadow.ray, [&] { return shadow.end; }, blocks_now);
     }
 
   private:
@@ -131,13 +132,15 @@ class Crowd {
     }
 
     // What may block a way from the lit primitive to the light; none: ask all.
-    const std::vector<ItemId>* blockers(const typename Kernel::Shadow& shadow) {
+    const LeafBoxes* blockers(const typename Kernel::Shadow& shadow) {
         if (!kernel_.lights_triangle(shadow)) return nullptr;
-        Listed<std::vector<ItemId>>& shade = shades_[{*shadow.from, shadow.light}];
+        Listed<LeafBoxes>& shade = shades_[{*shadow.from, shadow.light}];
         if (is_due(shade)) {
+            std::vector<ItemId> items;
             for (const ItemId item : items_)
-                if (!kernel_.leaves_in_light(item, shadow)) shade.list.push_back(item);
-            room_ -= std::min(room_, shade.list.size());
+                if (!kernel_.leaves_in_light(item, shadow)) items.push_back(item);
+            room_ -= std::min(room_, items.size());
+            shade.list = LeafBoxes(items, boxes_of_items_);
         }
         return shade.listed ? &shade.list : nullptr;
     }
@@ -153,7 +156,7 @@ class Crowd {
     Point3 eye_;
     std::map<PrimitiveId, Listed<Front>> fronts_;  // of rays from eye_, by the winner
     Listed<Front>* last_ = nullptr;
-    std::map<std::pair<PrimitiveId, const Light*>, Listed<std::vector<ItemId>>> shades_;
+    std::map<std::pair<PrimitiveId, const Light*>, Listed<LeafBoxes>> shades_;
 };
 
 }  // namespace nuvo

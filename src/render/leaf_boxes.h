@@ -61,11 +61,14 @@ class Slabs {
 /// number, so that it is as deep at any scale.
 class LeafBoxes {
   public:
+    LeafBoxes() = default;
     template <typename Boxes>
     LeafBoxes(std::span<const ItemId> items, const Boxes& boxes)
         : items_(items.begin(), items.end()) {
         build(0, items_.size(), boxes);
     }
+
+    std::span<const ItemId> items() const { return items_; }
 
     /// Calls visit(ItemId) for what the ray may meet at t <= end(), until it says true. `end` is
     /// asked for anew at each box. Returns whether it was said.

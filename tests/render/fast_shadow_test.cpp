@@ -245,7 +245,8 @@ TEST(ShadowPlanes, NeverContradictTheExactPredicateWhereTheyAreSure) {
                                 static_cast<float>(local.z)};
             // P itself is rounded.
             const float size = std::max(static_cast<float>(max_norm(local)), tables.dense());
-            const float error = tables.plane_error() + (kPlaneError + static_cast<float>(2 * kFloatRoundoff)) * size;
+            const float error = tables.plane_error() +
+                                (kPlaneError + static_cast<float>(2 * kFloatRoundoff)) * size;
             const float depth = tables.hides(l, slot) ? hidden(tables.planes(l)[slot], p) : -1;
             if (std::fabs(depth) <= error) continue;
             const bool endless = light.kind == Light::Kind::kDirectional;
