@@ -5,7 +5,7 @@
 #include <random>
 #include <string>
 
-#include "fast/primary/camera_tables.h"
+#include "fast/camera/camera_tables.h"
 #include "fast/primary/primary.h"
 #include "fast/scene/slot_order.h"
 #include "fast/simd/dispatch.h"

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <random>
 
-#include "fast/primary/camera_tables.h"
+#include "fast/camera/camera_tables.h"
 #include "fast/shading/shading_tables.h"
 #include "fast/shadow/shadow_tables.h"
 #include "fast/simd/dispatch.h"

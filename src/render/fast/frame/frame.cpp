@@ -4,7 +4,7 @@
 #include <chrono>
 #include <optional>
 
-#include "fast/primary/camera_tables.h"
+#include "fast/camera/camera_tables.h"
 #include "fast/primary/primary.h"
 #include "fast/scene/triangle_chunk.h"
 #include "fast/shading/shading.h"

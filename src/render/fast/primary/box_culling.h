@@ -8,9 +8,9 @@
 
 #include <algorithm>
 
-#include "fast/primary/camera_tables.h"
+#include "fast/camera/camera_tables.h"
+#include "fast/camera/pixel_boxes.h"
 #include "fast/primary/macro_tile.h"
-#include "fast/primary/pixel_boxes.h"
 #include "fast/simd/lanes.h"
 #include "fast/tile/tile.h"
 

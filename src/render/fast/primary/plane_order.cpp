@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "fast/primary/exact_planes.h"
+#include "fast/camera/exact_planes.h"
 #include "nuvo/math/error_bounds.h"
 
 namespace nuvo {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fast/primary/camera_triangles.h"
+#include "fast/camera/camera_triangles.h"
 #include "fast/scene/fast_scene.h"
 #include "fast/scene/pair_cache.h"
 

@@ -9,11 +9,11 @@
 
 #include <hwy/cache_control.h>
 
+#include "fast/camera/camera_triangle_lanes.h"
+#include "fast/camera/corner_fetch.h"
+#include "fast/camera/pixel_box_lanes.h"
 #include "fast/primary/box_culling.h"
-#include "fast/primary/camera_triangle_lanes.h"
-#include "fast/primary/corner_fetch.h"
 #include "fast/primary/frustum.h"
-#include "fast/primary/pixel_box_lanes.h"
 #include "fast/primary/primary_lanes.h"
 #include "fast/primary/sphere_lanes.h"
 #include "fast/simd/lanes.h"

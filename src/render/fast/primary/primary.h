@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fast/primary/camera_tables.h"
+#include "fast/camera/camera_tables.h"
 #include "fast/primary/macro_tile.h"
 #include "fast/primary/plane_order.h"
 #include "fast/scene/mailbox.h"

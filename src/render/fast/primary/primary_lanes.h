@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-#include "fast/primary/camera_tables.h"
+#include "fast/camera/camera_tables.h"
 #include "fast/primary/macro_tile.h"
 #include "fast/simd/lanes.h"
 #include "fast/tile/tile.h"

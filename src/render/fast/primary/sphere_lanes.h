@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fast/primary/camera_tables.h"
+#include "fast/camera/camera_tables.h"
 #include "fast/primary/primary_lanes.h"
 #include "fast/simd/lanes.h"
 #include "nuvo/math/error_bounds.h"

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "fast/primary/camera_tables.h"
+#include "fast/camera/camera_tables.h"
 #include "fast/scene/fast_scene.h"
 #include "fast/scene/triangle_chunk.h"
 #include "fast/shading/shading_rays.h"

@@ -1,10 +1,10 @@
-#include "fast/primary/camera_tables.h"
+#include "fast/camera/camera_tables.h"
 
 #include <cmath>
 #include <limits>
 
-#include "fast/primary/camera_triangles.h"
-#include "fast/primary/pixel_boxes.h"
+#include "fast/camera/camera_triangles.h"
+#include "fast/camera/pixel_boxes.h"
 #include "nuvo/math/error_bounds.h"
 #include "nuvo/math/parallel.h"
 

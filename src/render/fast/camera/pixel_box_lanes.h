@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "fast/primary/pixel_boxes.h"
+#include "fast/camera/pixel_boxes.h"
 #include "fast/simd/lanes.h"
 #include "nuvo/math/error_bounds.h"
 

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "fast/primary/camera_tables.h"
+#include "fast/camera/camera_tables.h"
 
 // Where in the picture a primitive can be seen, in whole pixels: most primitives of a dense scene
 // show at few pixels or none, and 16 bytes tell so without the 64 of a camera table.

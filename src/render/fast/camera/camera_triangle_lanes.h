@@ -8,7 +8,7 @@
 
 #include <limits>
 
-#include "fast/primary/camera_triangles.h"
+#include "fast/camera/camera_triangles.h"
 #include "fast/scene/wide_vectors.h"
 #include "nuvo/math/error_bounds.h"
 

@@ -1,10 +1,10 @@
-#include "fast/primary/pixel_boxes.h"
+#include "fast/camera/pixel_boxes.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "fast/primary/pixel_boxes.cpp"
+#define HWY_TARGET_INCLUDE "fast/camera/pixel_boxes.cpp"
 #include <hwy/foreach_target.h>
 
-#include "fast/primary/pixel_box_lanes.h"
+#include "fast/camera/pixel_box_lanes.h"
 
 // The boxes of spheres, from their camera tables; those of triangles are made with their tables.
 

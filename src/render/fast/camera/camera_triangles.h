@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "fast/primary/camera_tables.h"
+#include "fast/camera/camera_tables.h"
 #include "fast/scene/triangle_chunk.h"
 
 namespace nuvo {

@@ -1,10 +1,10 @@
-#include "fast/primary/exact_planes.h"
+#include "fast/camera/exact_planes.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "fast/primary/camera_triangles.h"
+#include "fast/camera/camera_triangles.h"
 #include "nuvo/math/error_bounds.h"
 
 namespace nuvo {
