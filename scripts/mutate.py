@@ -140,4 +140,5 @@ def main():
               f"  + {line.strip() or '(left out)'}")
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -293,6 +293,78 @@ TEST(Build, StopsAtNineteenDigits) {
     EXPECT_EQ(label_digits(longest), 19);
 }
 
+// Under prices by which each cut around two objects pays, whichever corner they stand in: cuts go
+// depth first, and the last of what is left weighs most.
+TEST(Build, ThesisCostsStopAtNineteenDigits) {
+    int deepest = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+        const Point3 at{static_cast<double>(corner & 1), static_cast<double>(corner >> 1 & 1),
+                        static_cast<double>(corner >> 2)};
+        const Point3 opposite = Point3{1, 1, 1} - at;
+        const Vector3 tiny = (opposite - at) * 0x1p-50;
+        BuildOptions options;
+        options.worth = ThesisCosts{1, 1e30, 3};
+        const std::vector<Bounds3> boxes{{at, at}, {at + tiny, at + tiny}, {opposite, opposite}};
+        const Octree octree = build_octree(boxes, options);
+        for (const Node& node : octree.nodes())
+            ASSERT_LE(label_digits(node.label), kMaxLabelDigits);
+        deepest = std::max(deepest, octree.depth());
+    }
+    EXPECT_EQ(deepest, kMaxLabelDigits + 1);
+}
+
+// Closed boxes on a lattice, of which many end on the planes of the cuts.
+TEST(Build, WhatEndsOnACutIsListedOnBothSides) {
+    std::mt19937_64 random(21);
+    std::vector<Bounds3> boxes{{{0, 0, 0}, {1, 1, 1}}, {{15, 15, 15}, {16, 16, 16}}};
+    for (int i = 0; i < 40; ++i) {
+        Bounds3 box;
+        for (int axis = 0; axis < 3; ++axis) {
+            box.min[axis] = static_cast<double>(random() % 16);
+            box.max[axis] = box.min[axis] + static_cast<double>(random() % 2);
+        }
+        boxes.push_back(box);
+    }
+    BuildOptions options;
+    for (const auto& worth :
+         {decltype(options.worth)(CalibratedCosts{}), decltype(options.worth)(MaxObjects{4}),
+          decltype(options.worth)(ThesisCosts{1201, 2, 42})}) {
+        options.worth = worth;
+        options.max_depth = 6;
+        const Octree octree = build_octree(boxes, options);
+        EXPECT_GE(octree.leaf_count(), 8U);
+        for (const Node& node : octree.nodes()) {
+            if (!node.is_leaf()) continue;
+            std::vector<ItemId> near;
+            for (std::size_t i = 0; i < boxes.size(); ++i)
+                if (boxes[i].overlaps(node.voxel.bounds)) near.push_back(static_cast<ItemId>(i));
+            const auto listed = octree.contents(node);
+            EXPECT_EQ(std::vector<ItemId>(listed.begin(), listed.end()), near);
+        }
+    }
+}
+
+// A scene so flat that its third axis is not cut.
+TEST(Build, OctantsWithoutWidthHoldNothing) {
+    auto boxes = random_boxes(9, 300, 1);
+    for (Bounds3& box : boxes) box.min.z = box.max.z = 1e9;
+    BuildOptions options;
+    options.margin = 1e-7;
+    for (const auto& worth :
+         {decltype(options.worth)(CalibratedCosts{}), decltype(options.worth)(MaxObjects{2})}) {
+        options.worth = worth;
+        const Octree octree = build_octree(boxes, options);
+        EXPECT_GT(octree.leaf_count(), 100U);
+        std::size_t without_width = 0;
+        for (const Node& node : octree.nodes())
+            if (node.is_leaf() && node.voxel.bounds.min.z == node.voxel.bounds.max.z) {
+                ++without_width;
+                EXPECT_EQ(node.item_count, 0U);
+            }
+        EXPECT_EQ(without_width, octree.nodes().size() / 2);  // 4 of each 8
+    }
+}
+
 TEST(Build, ObjectsAtOnePointEndInOneLeaf) {
     const std::vector<Bounds3> boxes(100, Bounds3{{1, 2, 3}, {1, 2, 3}});
     BuildOptions options;

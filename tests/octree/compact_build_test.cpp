@@ -353,6 +353,17 @@ TEST(CompactBuild, WhatDoesNotPayIsNotKept) {
             }
 }
 
+// Above the subtrees that threads share, too.
+TEST(CompactBuild, WhatDoesNotPayIsNotKeptOfManyItems) {
+    for (const float size : {0.3F, 0.6F, 1.0F})
+        for (const CutRule rule : kRules) {
+            const std::vector<Box> boxes = random_boxes(15, 20'000, size);
+            const CompactBuildOptions usual = options(rule);
+            const CompactOctree tree = build_compact_octree(boxes, usual);
+            EXPECT_LE(Reader(tree).cost(usual.costs), usual.costs.leaf + 20'000);
+        }
+}
+
 std::size_t largest_leaf(const CompactOctree& tree) {
     std::size_t largest = 0;
     for (const Leaf& leaf : leaves_of(tree)) largest = std::max(largest, leaf.items.size());

@@ -115,7 +115,7 @@ TEST(FastBoxes, HoldEveryPixelThatShowsThePrimitive) {
 TEST(FastBoxes, LeaveNoPixelOfATriangleOut) {
     for (const InstructionSet isa : supported_instruction_sets()) {
         long hits = 0;
-        for (unsigned seed = 1; seed <= 8; ++seed) {
+        for (unsigned seed = 1; seed <= 16; ++seed) {
             SCOPED_TRACE("seed " + std::to_string(seed));
             const Scene scene = scene_around_the_camera(seed);
             for (const Object& object : scene.objects) {
