@@ -28,7 +28,7 @@ void BestFirstBuilder::add(const Node& node, std::vector<ItemId> items) {
     nodes_.push_back(node);
     leaves_.push_back({std::move(items), nullptr});
     const int digits = label_digits(node.label);
-    if (digits >= kMaxLabelDigits || digits + 1 >= options_.max_depth) return;
+    if (digits + 1 >= options_.max_depth) return;
     Leaf& leaf = leaves_.back();
     std::optional<PayingCut> cut = finder_.find(node.voxel, leaf.items);
     if (!cut) return;

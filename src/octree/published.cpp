@@ -74,7 +74,7 @@ void PublishedBuilder::subdivide(NodeIndex index, const Items& items) {
 
 std::optional<TrialCut> PublishedBuilder::kept_cut(const Node& node, const Items& items) {
     const int digits = label_digits(node.label);
-    if (digits >= kMaxLabelDigits || digits + 1 >= options_.max_depth) return std::nullopt;
+    if (digits + 1 >= options_.max_depth) return std::nullopt;
     if (items.empty() || references_ >= options_.max_references) return std::nullopt;
     std::optional<TrialCut> trial = cutter_.cut(node.voxel, items);
     if (!trial) return std::nullopt;
