@@ -61,9 +61,12 @@ def draw(axes, study, floor):
     axes.axhline(floor, color="grey", linewidth=0.6, linestyle=":")
     axes.set_xscale("log")
     axes.set_yscale("log")
-    axes.margins(x=0.45)
+    axes.margins(x=0.25)
     axes.xaxis.set_major_formatter(ticker.StrMethodFormatter("{x:g}"))
-    axes.xaxis.set_minor_formatter(ticker.StrMethodFormatter("{x:g}"))
+    times = [row["trace_seconds_median"] for row in study["rows"]]
+    crowded = max(times) > 10 * min(times)  # the ticks between powers of ten would overlap
+    axes.xaxis.set_minor_formatter(ticker.NullFormatter() if crowded
+                                   else ticker.StrMethodFormatter("{x:g}"))
     size = study["resolution"]
     axes.set_title(f"{pathlib.Path(study['file']).stem}, {size['width']} x {size['height']}")
     axes.set_xlabel("processor seconds to trace a frame (median of "
