@@ -5,6 +5,7 @@
 
 #include "nuvo/app/choices.h"
 #include "nuvo/image/samples.h"
+#include "nuvo/render/sah_prices.h"
 #include "remarks.h"
 
 namespace nuvo::app {
@@ -33,7 +34,11 @@ class SerialRun {
     std::vector<RayAnswer> answers(std::span<const Ray> rays) const {
         return closest_hits(scene_, primitives_, &octree_, profile_, rays, progress_);
     }
-    void describe(Pass& pass) const { pass.tree = figures(octree_); }
+    void describe(Pass& pass) const {
+        pass.tree = figures(octree_);
+        pass.tree->sah =
+            final_sah(octree_, sah_prices(scene_, primitives_, profile_, octree_.leaf_count()));
+    }
     void count(Pass& pass, const Options& options) const {
         meter_.begin("counting");
         if (options.wants_planes()) {

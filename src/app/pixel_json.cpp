@@ -118,6 +118,7 @@ std::string pixel_json(const Options& options, const Scene& scene, const Primiti
     JsonWriter json;
     Writer out(json, scene, primitives, report.profile);
     json.begin_object();
+    json.member("schema", "nuvo.pixel/1");
     json.member("nuvo", NUVO_VERSION);
     json.member("file", report.file);
     write_resolution(json, options.resolution);

@@ -205,29 +205,6 @@ SceneCounts count(const Scene& scene) {
     return counts;
 }
 
-TreeFigures figures(const Octree& octree) {
-    return {octree.depth_tried().value_or(octree.depth()),
-            octree.leaf_count(),
-            octree.nodes().size(),
-            octree.reference_count(),
-            octree.memory_bytes(),
-            octree.smallest_width(),
-            octree.out_of_budget()};
-}
-
-TileFigures figures(const FastTracer& tracer, const FastOptions& options) {
-    const CompactOctree& octree = tracer.octree();
-    TileFigures tiles;
-    tiles.threads = options.threads;
-    tiles.isa = options.isa;
-    tiles.depth = octree.depth();
-    tiles.voxels = octree.leaf_count();
-    tiles.nodes = octree.nodes.size();
-    tiles.references = octree.items.size();
-    tiles.memory = tracer.memory();
-    return tiles;
-}
-
 std::string profile_flags_text(const Options& options) {
     const Profile& profile = options.profile;
     std::string text = "--profile=" + options.profile_name;

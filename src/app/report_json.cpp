@@ -18,6 +18,40 @@ void write_scene(JsonWriter& json, const SceneCounts& scene) {
     json.end_object();
 }
 
+void write_leaves(JsonWriter& json, const LeafHistogram& leaves) {
+    json.key("leaf_depths");
+    json.begin_array();
+    for (std::size_t depth = 0; depth < leaves.levels.size(); ++depth) {
+        json.begin_object();
+        json.member("depth", depth);
+        json.member("leaves", leaves.levels[depth].leaves);
+        json.member("volume_share", leaves.levels[depth].volume_share);
+        json.end_object();
+    }
+    json.end_array();
+    json.key("leaf_items");
+    json.begin_array();
+    for (std::size_t power = 0; power < leaves.items.size(); ++power) {
+        const std::size_t first = power == 0 ? 0 : std::size_t{1} << (power - 1);
+        json.begin_object();
+        json.member("from", first);
+        json.member("to", power == 0 ? 0 : 2 * first - 1);
+        json.member("leaves", leaves.items[power]);
+        json.end_object();
+    }
+    json.end_array();
+}
+
+void write_sah(JsonWriter& json, const FinalSah& sah) {
+    json.key("sah");
+    json.begin_object();
+    json.member("cost", sah.cost);
+    json.member("interior", sah.prices.interior);
+    json.member("leaf", sah.prices.leaf);
+    json.member("object", sah.prices.object);
+    json.end_object();
+}
+
 void write_tree(JsonWriter& json, const TreeFigures& tree) {
     json.key("tree");
     json.begin_object();
@@ -28,6 +62,14 @@ void write_tree(JsonWriter& json, const TreeFigures& tree) {
     json.member("memory_bytes", tree.memory_bytes);
     json.member("smallest_width", tree.smallest_width);
     json.member("out_of_budget", tree.out_of_budget);
+    if (tree.sah) write_sah(json, *tree.sah);
+    write_leaves(json, tree.leaves);
+    json.key("bytes");
+    json.begin_object();
+    json.member("nodes", tree.node_bytes);
+    json.member("references", tree.reference_bytes);
+    json.member("names", tree.memory_bytes - tree.node_bytes - tree.reference_bytes);
+    json.end_object();
     json.end_object();
 }
 
@@ -59,6 +101,7 @@ void write_tiles(JsonWriter& json, const TileFigures& tiles, bool has_serial_cou
     json.member("references", tiles.references);
     json.member("structure_bytes", tiles.memory.structure);
     json.member("table_bytes", tiles.memory.tables);
+    write_leaves(json, tiles.leaves);
     json.end_object();
     if (tiles.counts && !has_serial_counts) {
         json.key("counts");
@@ -159,6 +202,7 @@ void write_pairs(JsonWriter& json, const std::vector<Pair>& pairs) {
 std::string report_json(const Options& options, const Report& report) {
     JsonWriter json;
     json.begin_object();
+    json.member("schema", "nuvo.report/1");
     json.member("nuvo", NUVO_VERSION);
     write_provenance(json, options);
     json.member("file", report.file);

@@ -33,6 +33,7 @@ std::string study_json(const Options& options, const std::string& file,
                        const std::vector<StudyRow>& rows) {
     JsonWriter json;
     json.begin_object();
+    json.member("schema", "nuvo.study/1");
     json.member("nuvo", NUVO_VERSION);
     write_provenance(json, options);
     json.member("file", file);

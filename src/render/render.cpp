@@ -9,6 +9,7 @@
 #include "nuvo/geometry/overlap.h"
 #include "nuvo/octree/build.h"
 #include "nuvo/octree/walk.h"
+#include "nuvo/render/sah_prices.h"
 #include "tracer.h"
 
 namespace nuvo {
@@ -192,6 +193,13 @@ Octree build_tree(const Scene& scene, const Primitives& primitives, const Profil
     Octree octree = build_octree(boxes, options);
     if (profile.walk == WalkChoice::kHash) octree.make_names();
     return octree;
+}
+
+SahCosts sah_prices(const Scene& scene, const Primitives& primitives, const Profile& profile,
+                    std::size_t leaves) {
+    return profile.costs == CostChoice::kThesis && !profile.max_objects
+               ? thesis_costs(scene, primitives)(leaves)
+               : calibrated_costs(primitives).costs();
 }
 
 Image render(const Scene& scene, const Primitives& primitives, const Octree& octree,

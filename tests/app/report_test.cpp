@@ -20,6 +20,8 @@ Report example() {
     Pass pass;
     pass.name = "uniform";
     pass.tree = TreeFigures{2, 8, 9, 30, 1'500'000, std::numeric_limits<double>::infinity()};
+    pass.tree->node_bytes = 1'000'000;
+    pass.tree->reference_bytes = 200'000;
     pass.counts = TraceCounts{100, 50, 1053, 1303};
     pass.build_seconds = {0.25, 0.75};
     pass.trace_seconds = {1, 3};
@@ -83,6 +85,50 @@ TEST(Report, JsonIsCleanAndHasTheRawTimes) {
     EXPECT_EQ(json["resolution"]["width"], 1920);
 }
 
+// A root of 4 x 4 x 8 with one child in the corner cut again: by hand.
+TEST(Report, TheLeavesAreToldByDepthAndByItems) {
+    const auto node = [](Bounds3 box, Label label) {
+        Node result;
+        result.voxel = Voxel::centered(box);
+        result.label = label;
+        return result;
+    };
+    const Bounds3 box{{0, 0, 0}, {4, 4, 8}};
+    std::vector<Node> nodes{node(box, 0)};
+    nodes[0].first_child = 1;
+    for (int digit = 1; digit <= 8; ++digit)
+        nodes.push_back(node(nodes[0].voxel.octant(digit), child_label(0, digit)));
+    nodes[3].first_child = 9;
+    for (int digit = 1; digit <= 8; ++digit)
+        nodes.push_back(node(nodes[3].voxel.octant(digit), child_label(nodes[3].label, digit)));
+    nodes[1].first_item = 0;
+    nodes[1].item_count = 1;
+    nodes[10].first_item = 1;
+    nodes[10].item_count = 4;
+    nodes[11].first_item = 5;
+    nodes[11].item_count = 7;
+    const Octree octree(std::move(nodes), std::vector<ItemId>(12, ItemId{0}));
+    Report report = example();
+    report.passes[0].tree = figures(octree);
+    // Interior areas 160 and 40, leaf areas 7 x 40 and 8 x 10, and 40 + 10 x (4 + 7) with items.
+    report.passes[0].tree->sah = final_sah(octree, {6, 2, 1});
+    const auto tree = nlohmann::json::parse(report_json(Options(), report))["tree"];
+    EXPECT_EQ(tree["leaf_depths"],
+              (nlohmann::json{{{"depth", 0}, {"leaves", 0}, {"volume_share", 0}},
+                              {{"depth", 1}, {"leaves", 7}, {"volume_share", 0.875}},
+                              {{"depth", 2}, {"leaves", 8}, {"volume_share", 0.125}}}));
+    EXPECT_EQ(tree["leaf_items"], (nlohmann::json{{{"from", 0}, {"to", 0}, {"leaves", 12}},
+                                                  {{"from", 1}, {"to", 1}, {"leaves", 1}},
+                                                  {{"from", 2}, {"to", 3}, {"leaves", 0}},
+                                                  {{"from", 4}, {"to", 7}, {"leaves", 2}}}));
+    EXPECT_DOUBLE_EQ(tree["sah"]["cost"], (6.0 * 200 + 2.0 * 360 + 150) / 160);
+    EXPECT_EQ(tree["sah"]["leaf"], 2);
+    EXPECT_EQ(tree["bytes"]["nodes"], 17 * sizeof(Node));
+    EXPECT_EQ(tree["bytes"]["references"], 12 * sizeof(ItemId));
+    EXPECT_EQ(17 * sizeof(Node) + 12 * sizeof(ItemId) + tree["bytes"]["names"].get<std::size_t>(),
+              octree.memory_bytes());
+}
+
 TEST(Report, PsnrOfEqualPicturesIsNullInJsonAndInfInText) {
     Report report = example();
     report.passes.push_back(report.passes[0]);
@@ -134,7 +180,7 @@ Report tile_example() {
     pass.tree.reset();
     pass.counts.reset();
     pass.tiles =
-        TileFigures{2, InstructionSet::kAvx2, 5, 70, 90, 110, {2'500'000, 300'000}, {}, {}};
+        TileFigures{2, InstructionSet::kAvx2, 5, 70, 90, 110, {2'500'000, 300'000}, {}, {}, {}};
     pass.tiles->counts = RayCounts{100, 50};
     pass.tiles->stage_seconds = FastTimes{0.125, 0.25, 0.5, 0.75};
     pass.build_wall_seconds = {0.25, 0.25};

@@ -8,6 +8,7 @@
 #include "nuvo/app/clocks.h"
 #include "nuvo/app/options.h"
 #include "nuvo/image/compare.h"
+#include "nuvo/octree/cost.h"
 #include "nuvo/octree/octree.h"
 #include "nuvo/render/fast.h"
 #include "nuvo/render/planes.h"
@@ -27,6 +28,24 @@ struct SceneCounts {
 };
 SceneCounts count(const Scene& scene);
 
+/// How leaves lie and what they hold, the empty ones that an octree keeps included.
+struct LeafHistogram {
+    struct Level {
+        std::size_t leaves = 0;
+        double volume_share = 0;  ///< of the root
+    };
+    std::vector<Level> levels;       ///< by levels below the root
+    std::vector<std::size_t> items;  ///< leaves of none, and at i > 0 of 2^(i-1) to 2^i - 1
+
+    void add(std::size_t level, double volume_share, std::size_t item_count);
+};
+
+/// The final cost of an octree. [eq. 10]
+struct FinalSah {
+    double cost = 0;  ///< expected, of a ray that enters the root; NaN: the root has no surface
+    SahCosts prices;  ///< by which cuts were judged
+};
+
 /// An octree in figures.
 struct TreeFigures {
     int depth = 0;
@@ -36,8 +55,14 @@ struct TreeFigures {
     std::size_t memory_bytes = 0;
     double smallest_width = 0;
     bool out_of_budget = false;  ///< cuts that pay were left out
+    LeafHistogram leaves = {};
+    std::size_t node_bytes = 0;  ///< memory_bytes are these, the references' and the names'
+    std::size_t reference_bytes = 0;
+    std::optional<FinalSah> sah = {};
 };
+/// All but the last.
 TreeFigures figures(const Octree& octree);
+FinalSah final_sah(const Octree& octree, const SahCosts& prices);
 
 /// What the tile tracer has in place of TreeFigures and TraceCounts.
 struct TileFigures {
@@ -48,6 +73,7 @@ struct TileFigures {
     std::size_t nodes = 0;
     std::size_t references = 0;
     FastMemory memory;
+    LeafHistogram leaves = {};  ///< those with items
     std::optional<RayCounts> counts;
     std::optional<FastTimes> stage_seconds;  ///< of one picture
 };
