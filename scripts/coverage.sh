@@ -37,6 +37,8 @@ folders = collections.defaultdict(lambda: [0, 0, 0, 0])
 missing = []
 for file in files:
     name = os.path.relpath(file["filename"], sys.argv[2])
+    if not name.startswith(("src/", "include/")):
+        continue
     part = "/".join(p for p in name.split("/")[:-1] if p not in ("src", "include", "nuvo"))
     if part.startswith("render/fast"):
         part = "render/fast"

@@ -23,7 +23,7 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 ROOMS = {  # the files, and the test programs that run one after the other
-    "geometry": (["src/geometry/*.cpp"], [["geometry_tests"], ["property_tests"], ["hard_tests"]]),
+    "geometry": (["src/geometry/*.cpp"], [["geometry_tests"], ["property_tests"]]),
     "octree": (["src/octree/*.cpp"], [["octree_tests"], ["property_tests"]]),
     "fast": (["src/render/fast/scene/*.cpp", "src/render/fast/primary/*.cpp", "src/render/fast/shadow/*.cpp",
               "src/render/fast/tile/*.cpp"], [["render_tests"], ["fuzz_tests"]]),
