@@ -16,7 +16,7 @@ declare -A may_see=(
     [app]="math geometry octree image scene render"
 )
 # The folders of the fast tracer, lowest first: each sees itself and those before it.
-fast_folders=(simd scene tile camera primary shadow shading rays frame)
+fast_folders=(simd scene tile camera primary light shadow shading rays frame)
 # A library's headers and the one room that may include them.
 libraries=(
     "boost/property_tree scene"

@@ -64,7 +64,8 @@ Findings compare_alone(const Scene& scene, InstructionSet isa) {
     const auto job =
         std::make_unique<PrimaryJob>(PrimaryJob{fast, camera, tables, fallback, true, {}});
     const auto macro = std::make_unique<MacroTile>();
-    PrimaryStage(isa).trace(*job, *macro);
+    const auto quadrics = std::make_unique<MacroQuadrics>();
+    PrimaryStage(isa).trace(*job, *macro, quadrics.get());
     Findings found;
     for (int lane = 0; lane < MacroTile::kLanes; ++lane) {
         const int x = macro->tile_x(lane / kTileLanes) + lane_x(lane % kTileLanes);

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "fast/frame/frame.h"
 #include "nuvo/render/fast.h"
 #include "nuvo/render/render.h"
 #include "property/test_scenes.h"
@@ -52,6 +53,7 @@ inline std::string text(const FastOptions& options, Resolution size) {
 }
 
 /// All pictures of `sizes` by tracers of each kind; those of several threads of the first size.
+// Shadows are listed in every way.
 inline void expect_identical(const Scene& scene, const std::vector<Resolution>& sizes,
                              const std::vector<int>& threads = {1}) {
     const Primitives primitives = flatten(scene, LeafContent::kPrimitives);
@@ -62,9 +64,21 @@ inline void expect_identical(const Scene& scene, const std::vector<Resolution>& 
             for (const int count : threads) {
                 const FastOptions options{type, count, isa};
                 FastTracer tracer(scene, primitives, options);
-                for (std::size_t i = 0; i < (count == 1 ? sizes.size() : 1); ++i)
+                const FastScene fast(scene, primitives, type, count);
+                KeptShadows kept;
+                for (std::size_t i = 0; i < (count == 1 ? sizes.size() : 1); ++i) {
                     EXPECT_EQ(difference(expected[i], tracer.render(sizes[i])), "")
                         << text(options, sizes[i]);
+                    if (!Frame::can_show(fast.frame(), scene.camera)) continue;
+                    for (const ShadowListing listing :
+                         {ShadowListing::kAll, ShadowListing::kWanted})
+                        EXPECT_EQ(
+                            difference(
+                                expected[i],
+                                Frame(fast, options, sizes[i], nullptr, kept, listing).render()),
+                            "")
+                            << text(options, sizes[i]) << ", listing " << static_cast<int>(listing);
+                }
             }
 }
 

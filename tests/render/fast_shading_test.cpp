@@ -48,13 +48,14 @@ class ShadedPicture {
         ShadingStage stage(fast_, camera_, tables, isa, redo_exactly);
         Image image(size_.width, size_.height);
         const auto macro = std::make_unique<MacroTile>();
+        const auto quadrics = std::make_unique<MacroQuadrics>();
         const auto tile = std::make_unique<Tile>();
         Shaded result;
         for (macro->y = 0; macro->y < size_.height; macro->y += kMacroSide)
             for (macro->x = 0; macro->x < size_.width; macro->x += kMacroSide) {
-                primary.trace(job, *macro);
+                primary.trace(job, *macro, quadrics.get());
                 for (int i = 0; i < MacroTile::kTiles; ++i) {
-                    macro->copy(i, true, *tile);
+                    macro->copy(i, quadrics.get(), *tile);
                     if (tile->x >= size_.width || tile->y >= size_.height) continue;
                     stage.surface(*tile);
                     for (std::size_t light = 0; light < scene_.lights.size(); ++light)

@@ -247,7 +247,9 @@ TEST(ShadowPlanes, NeverContradictTheExactPredicateWhereTheyAreSure) {
             const float size = std::max(static_cast<float>(max_norm(local)), tables.dense());
             const float error = tables.plane_error() +
                                 (kPlaneError + static_cast<float>(2 * kFloatRoundoff)) * size;
-            const float depth = tables.hides(l, slot) ? hidden(tables.planes(l)[slot], p) : -1;
+            const float depth = (tables.table(l).hides[slot / 8] >> slot % 8 & 1) != 0
+                                    ? hidden(tables.table(l).planes[slot], p)
+                                    : -1;
             if (std::fabs(depth) <= error) continue;
             const bool endless = light.kind == Light::Kind::kDirectional;
             const ExactRay way = endless ? ExactRay(Ray{point, -light.direction})

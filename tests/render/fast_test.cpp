@@ -117,6 +117,23 @@ TEST(Fast, RandomScenesOfAnyScaleAndPlaceAreRenderedToTheSameBytes) {
     }
 }
 
+// Tables of shadows are kept from one picture to the next.
+TEST(Fast, LightsAndCamerasThatMoveBetweenPicturesGiveNewShadows) {
+    Scene scene = grid_scene();
+    const Primitives primitives = flatten(scene, LeafContent::kPrimitives);
+    constexpr Resolution kSize{64, 48};
+    FastTracer tracer(scene, primitives, {});
+    const std::vector<Camera> cameras = odd_cameras(scene);
+    for (std::size_t i = 0; i < 6; ++i) {
+        scene.lights.resize(1 + i / 3);
+        scene.lights.back().direction =
+            normalized(Vector3{0.3 * static_cast<double>(i) - 0.5, -1, 0.4});
+        scene.camera = cameras[i / 2 % cameras.size()];
+        EXPECT_EQ(difference(exact_picture(scene, primitives, kSize), tracer.render(kSize)), "")
+            << "picture " << i;
+    }
+}
+
 TEST(Fast, ScenesWithoutObjectsOrLightsAreRenderedToTheSameBytes) {
     const std::uint64_t seed = chosen_seed();
     SCOPED_TRACE("NUVO_FAST_SEED=" + std::to_string(seed));

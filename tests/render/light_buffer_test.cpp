@@ -1,4 +1,4 @@
-#include "fast/shadow/light_buffer.h"
+#include "fast/light/light_buffer.h"
 
 #include <gtest/gtest.h>
 
@@ -29,13 +29,13 @@ struct Place {
 Place place_of(const LightBuffer& buffer, const LightPoint& light, const Point3& p) {
     const Vector3 way = light.toward - p * light.weight;
     Place place;
-    if (!buffer.inside) {
-        const int k = buffer.axis;
+    if (!buffer.map.inside) {
+        const int k = buffer.map.axis;
         for (int i = 0; i < 2; ++i) {
             const int axis = (k + 1 + i) % 3;
             place.u[i] = p[axis] - p[k] * (way[axis] / way[k]);
         }
-        place.depth = -static_cast<double>(buffer.sign) * p[k];
+        place.depth = -static_cast<double>(buffer.map.sign) * p[k];
         return place;
     }
     int k = 0;
@@ -51,8 +51,8 @@ Place place_of(const LightBuffer& buffer, const LightPoint& light, const Point3&
 std::set<Slot> listed(const LightBuffer& buffer, const Place& place) {
     std::uint32_t step[2];
     for (int i = 0; i < 2; ++i)
-        step[i] = static_cast<std::uint32_t>(
-            std::clamp((place.u[i] - buffer.low[i]) * buffer.steps[i], 0.0, kLightSteps - 1.0));
+        step[i] = static_cast<std::uint32_t>(std::clamp(
+            (place.u[i] - buffer.map.low[i]) * buffer.map.steps[i], 0.0, kLightSteps - 1.0));
     std::set<Slot> found;
     for (const LightGrid& grid : buffer.grids) {
         const auto column = step[0] * static_cast<std::uint32_t>(grid.columns) / kLightSteps;
@@ -63,7 +63,7 @@ std::set<Slot> listed(const LightBuffer& buffer, const Place& place) {
             const LightEntry& entry = buffer.entries[i];
             if (entry.near <= place.depth && entry.low[0] <= step[0] && step[0] <= entry.high[0] &&
                 entry.low[1] <= step[1] && step[1] <= entry.high[1])
-                found.insert(entry.slot);
+                found.insert(entry.place);
         }
     }
     return found;
@@ -147,15 +147,16 @@ TEST(LightBuffer, ListsEveryItemThatBlocksAPointKnownWellEnough) {
                 if (!(max_norm(local) < 1)) continue;
                 const Point3 point = local * (1 / fast.frame().scale) + fast.frame().center;
                 // As far off as allowed.
-                const Point3 near = local + uniform_point(random, 1) * (0.999 * buffer.point_error);
+                const Point3 near =
+                    local + uniform_point(random, 1) * (0.999 * buffer.map.point_error);
                 const Place place = place_of(buffer, tables.table(l).light, near);
-                if (buffer.inside && place.depth < buffer.nearest) continue;
+                if (buffer.map.inside && place.depth < buffer.map.nearest) continue;
                 const std::set<Slot> found = listed(buffer, place);
                 for (Slot slot = 0; slot < fast.slot_end(); ++slot) {
                     if (!occlusion.blocks(slot, point, scene.lights[l])) continue;
                     ASSERT_TRUE(found.contains(slot)) << "seed " << seed << ", point " << i
                                                       << ", light " << l << ", slot " << slot;
-                    ++blocked[buffer.inside];
+                    ++blocked[buffer.map.inside];
                 }
             }
         }
@@ -180,7 +181,7 @@ TEST(LightBuffer, ListsFewItemsWhereNoneIsLarge) {
     const ShadowTables tables(fast, resolved(InstructionSet::kBest));
     const LightBuffer& buffer = tables.table(0).buffer;
     ASSERT_TRUE(buffer.usable());
-    ASSERT_FALSE(buffer.inside);
+    ASSERT_FALSE(buffer.map.inside);
     // Below the lowest sphere of a stack, and between the stacks.
     const Point3 below = fast.frame().local({6, 4, -1});
     EXPECT_EQ(listed(buffer, place_of(buffer, tables.table(0).light, below)).size(), 10U);

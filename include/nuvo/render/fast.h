@@ -40,7 +40,7 @@ struct FastOptions {
 /// Bytes held by a FastTracer.
 struct FastMemory {
     std::size_t structure = 0;  ///< nodes, references and leaf copies
-    std::size_t tables = 0;     ///< per camera and light, made anew for each picture
+    std::size_t tables = 0;     ///< per camera and light, of the last picture
 };
 
 /// Time by stage on the clock of the wall, in seconds, summed over the threads.

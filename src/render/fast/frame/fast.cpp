@@ -12,18 +12,9 @@
 namespace nuvo {
 namespace {
 
-// In units of the scene's width. Floats tell nothing of a scene seen from beyond; the serial tracer
-// takes over, with the same picture.
-constexpr double kFarthestCamera = 0x1p20;
-
 FastOptions with_isa(FastOptions options) {
     options.isa = resolved(options.isa);
     return options;
-}
-
-// Its tables are for rays from one point.
-bool is_near(const LocalFrame& frame, const Camera& camera) {
-    return !camera.window && max_norm(frame.local(camera.position)) < kFarthestCamera;
 }
 
 // What the serial tracer needs of the same scene.
@@ -49,6 +40,7 @@ struct FastTracer::State {
     BlockKeeper keeper;
     FastOptions options;
     FastScene fast;
+    KeptShadows kept;
     std::size_t table_bytes = 0;
     std::unique_ptr<SingleRays> single;  // made when rays are first asked for
 };
@@ -61,14 +53,15 @@ FastTracer& FastTracer::operator=(FastTracer&&) noexcept = default;
 
 Image FastTracer::render(Resolution resolution, FastTimes* times) {
     const FastScene& fast = state_->fast;
-    if (!is_near(fast.frame(), fast.scene().camera)) {
+    if (!Frame::can_show(fast.frame(), fast.scene().camera)) {
         const SerialTree tree(fast, state_->options.progress);
         return nuvo::render(fast.scene(), fast.primitives(), tree.octree, tree.profile, resolution,
                             state_->options.progress);
     }
-    Frame frame(fast, state_->options, resolution);
+    Frame frame(fast, state_->options, resolution, times, state_->kept);
+    Image image = frame.render();
     state_->table_bytes = frame.memory_bytes();
-    return frame.render(times);
+    return image;
 }
 
 std::vector<RayAnswer> FastTracer::closest_hits(std::span<const Ray> rays) const {
@@ -81,7 +74,7 @@ std::vector<RayAnswer> FastTracer::closest_hits(std::span<const Ray> rays) const
 
 RayCounts FastTracer::count_rays(Resolution resolution) const {
     const FastScene& fast = state_->fast;
-    if (is_near(fast.frame(), fast.scene().camera))
+    if (Frame::can_show(fast.frame(), fast.scene().camera))
         return nuvo::count_rays(fast, state_->options.isa, resolution, state_->options.progress);
     const SerialTree tree(fast, state_->options.progress);
     const TraceCounts counts = count_events(fast.scene(), fast.primitives(), tree.octree,

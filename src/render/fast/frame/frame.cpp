@@ -5,7 +5,10 @@
 #include <optional>
 
 #include "fast/camera/camera_tables.h"
+#include "fast/frame/kept_shadows.h"
+#include "fast/light/wanted_depths.h"
 #include "fast/primary/primary.h"
+#include "fast/scene/seen_triangles.h"
 #include "fast/scene/triangle_chunk.h"
 #include "fast/shading/shading.h"
 #include "fast/shadow/shadow.h"
@@ -18,6 +21,10 @@
 
 namespace nuvo {
 namespace {
+
+// In units of the scene's width. Floats tell nothing of a scene seen from beyond; the serial tracer
+// takes over, with the same picture.
+constexpr double kFarthestCamera = 0x1p20;
 
 double seconds_now() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
@@ -49,70 +56,153 @@ std::uint64_t pixels_of(TilePlace place, Resolution size) {
 
 }  // namespace
 
+// What all pixels show, and of each light where the wanted points are, if shadows are made for
+// these.
+struct Frame::Hits {
+    BigVector<MacroTile> tiles;         // in the order of Tables::tiles
+    BigVector<MacroQuadrics> quadrics;  // the same; empty: the scene has none
+    std::optional<SeenTriangles> seen;
+    std::vector<std::optional<WantedDepths>> wanted;  // by light
+
+    MacroQuadrics* quadrics_of(std::size_t i) { return quadrics.empty() ? nullptr : &quadrics[i]; }
+    const MacroQuadrics* quadrics_of(std::size_t i) const {
+        return quadrics.empty() ? nullptr : &quadrics[i];
+    }
+    std::size_t memory_bytes() const {
+        std::size_t bytes =
+            tiles.size() * sizeof(MacroTile) + quadrics.size() * sizeof(MacroQuadrics);
+        for (const std::optional<WantedDepths>& light : wanted)
+            if (light) bytes += light->memory_bytes();
+        return bytes;
+    }
+};
+
 struct Frame::Tables {
-    Tables(const FastScene& scene, const FastOptions& options, Resolution resolution)
+    Tables(const FastScene& scene, const FastOptions& options, Resolution resolution,
+           KeptShadows& kept, ShadowListing listing)
         : rays(scene.scene().camera, resolution, scene.frame()),
-          tiles(tiles_in_order(resolution, kMacroSide)) {
-        shadow.emplace(scene, options.isa, options.threads, TableFilling::kLater);
+          tiles(tiles_in_order(resolution, kMacroSide)),
+          two_passes(listing == ShadowListing::kMeasured ? shadows_pay(scene, resolution)
+                                                         : listing == ShadowListing::kWanted) {
         camera.emplace(scene, rays, options.isa, options.threads, TableFilling::kLater);
-        const auto surfaces = std::make_shared<ShadingTables>(scene, rays, camera->spheres,
-                                                              options.isa, TableFilling::kLater);
-        fill_tables(scene, options.threads, *shadow, *camera, *surfaces);
+        surfaces = std::make_shared<ShadingTables>(scene, rays, camera->spheres, options.isa,
+                                                   TableFilling::kLater);
+        if (two_passes) {
+            for_each_quadric_part(scene, options.threads,
+                                  [&](QuadricSpan some) { camera->take_quadrics(some); });
+            camera->finish();
+            hits.seen.emplace(scene);
+        } else if ((shadow = kept.find(scene.scene().lights)) != nullptr) {
+            fill_tables(scene, options.threads, *camera, *surfaces);
+        } else {
+            shadow = &kept.make(scene, options.isa, options.threads, [&](ShadowTables& all) {
+                fill_tables(scene, options.threads, all, *camera, *surfaces);
+            });
+        }
         shading.emplace(surfaces, options.redo_exactly);
     }
 
     CameraRays rays;
     std::vector<TilePlace> tiles;
-    std::optional<ShadowTables> shadow;
+    bool two_passes;
     std::optional<CameraTables> camera;
+    const ShadowTables* shadow = nullptr;
+    std::optional<ShadowTables> wanted_shadow;  // of what may stand before wanted points
+    std::shared_ptr<ShadingTables> surfaces;
     std::optional<ShadingStage> shading;  // copied by each thread; the copies share its tables
+    Hits hits;
+
+  private:
+    // Whether it takes less time to ask each pixel twice than to make all tables of shadows.
+    static bool shadows_pay(const FastScene& scene, Resolution resolution) {
+        constexpr std::size_t kPixels = 16;  // that cost as much as the tables of an item
+        const std::vector<Light>& lights = scene.scene().lights;
+        const auto pixels = static_cast<std::size_t>(resolution.width) *
+                            static_cast<std::size_t>(resolution.height);
+        return scene.slot_end() * kPixels > pixels &&
+               std::any_of(lights.begin(), lights.end(),
+                           [](const Light& light) { return light.casts_shadow; });
+    }
 };
 
 /// One thread's stages.
 class Frame::Worker {
   public:
-    Worker(const FastScene& scene, const Tables& tables, const FastOptions& options)
+    /// `clocked`: spent() is asked for.
+    Worker(const FastScene& scene, const Tables& tables, const FastOptions& options, bool clocked)
         : scene_(scene),
+          tables_(tables),
+          options_(options),
+          clocked_(clocked),
           fallback_(scene, tables.rays),
           job_{scene, tables.rays, *tables.camera, fallback_, options.redo_exactly, {}},
           primary_(options.isa),
-          shadow_(*tables.shadow, options.isa, options.redo_exactly),
           shading_(*tables.shading) {}
 
-    void trace(TilePlace place, Image& image, FastTimes* times) {
-        FastTimes spent;
-        StageClock clock(times != nullptr);
-        macro_.x = place.column * kMacroSide;
-        macro_.y = place.row * kMacroSide;
-        primary_.trace(job_, macro_);
-        clock.add_to(spent.primary);
-        const bool quadrics = scene_.slot_end() != scene_.triangle_end();
-        for (int i = 0; i < MacroTile::kTiles; ++i) {
-            macro_.copy(i, quadrics, tile_);
-            if (tile_.x < image.width() && tile_.y < image.height()) shade(image, spent, clock);
+    /// Finds what a macro tile shows.
+    void find(TilePlace place, MacroTile& macro, MacroQuadrics* quadrics) {
+        macro.x = place.column * kMacroSide;
+        macro.y = place.row * kMacroSide;
+        StageClock clock(clocked_);
+        primary_.trace(job_, macro, quadrics);
+        clock.add_to(spent_.primary);
+    }
+    /// Calls use(wanted depths of a light, tile, wanted lanes) for the tiles of a macro tile.
+    template <typename Use>
+    void want(std::size_t i, Use&& use) {
+        for_each_tile(tables_.hits.tiles[i], tables_.hits.quadrics_of(i), [&] {
+            if (!hit_anything()) return;
+            shading_.surface(tile_);
+            for (std::size_t light = 0; light < scene_.scene().lights.size(); ++light) {
+                if (!tables_.hits.wanted[light]) continue;
+                TileMask wanted;
+                shading_.sample(tile_, light, wanted);
+                use(light, tile_, wanted);
+            }
+        });
+    }
+    void shade(std::size_t i, Image& image) {
+        if (!shadow_) shadow_.emplace(*tables_.shadow, options_.isa, options_.redo_exactly);
+        if (tables_.two_passes) {
+            shade(tables_.hits.tiles[i], tables_.hits.quadrics_of(i), image);
+            return;
         }
-        if (times == nullptr) return;
-        times->primary += spent.primary;
-        times->shadow += spent.shadow;
-        times->shading += spent.shading;
+        const bool quadrics = scene_.slot_end() != scene_.triangle_end();
+        find(tables_.tiles[i], macro_, &quadrics_);
+        shade(macro_, quadrics ? &quadrics_ : nullptr, image);
     }
 
+    const FastTimes& spent() const { return spent_; }
+
   private:
-    void shade(Image& image, FastTimes& spent, StageClock& clock) {
+    template <typename Use>
+    void for_each_tile(const MacroTile& macro, const MacroQuadrics* quadrics, Use&& use) {
+        const Resolution size = tables_.rays.resolution;
+        for (int i = 0; i < MacroTile::kTiles; ++i) {
+            if (macro.tile_x(i) >= size.width || macro.tile_y(i) >= size.height) continue;
+            macro.copy(i, quadrics, tile_);
+            use();
+        }
+    }
+    void shade(const MacroTile& macro, const MacroQuadrics* quadrics, Image& image) {
+        StageClock clock(clocked_);
+        for_each_tile(macro, quadrics, [&] { shade_tile(image, clock); });
+    }
+    void shade_tile(Image& image, StageClock& clock) {
         if (hit_anything()) {
             shading_.surface(tile_);
             for (std::size_t light = 0; light < scene_.scene().lights.size(); ++light) {
                 TileMask wanted;
                 shading_.sample(tile_, light, wanted);
-                clock.add_to(spent.shading);
+                clock.add_to(spent_.shading);
                 TileMask lit;
-                shadow_.trace(tile_, light, wanted, fallback_, lit);
-                clock.add_to(spent.shadow);
+                shadow_->trace(tile_, light, wanted, fallback_, lit);
+                clock.add_to(spent_.shadow);
                 shading_.add(light, lit);
             }
         }
         shading_.finish(tile_, fallback_, image);
-        clock.add_to(spent.shading);
+        clock.add_to(spent_.shading);
     }
 
     bool hit_anything() const {
@@ -121,50 +211,120 @@ class Frame::Worker {
     }
 
     const FastScene& scene_;
+    const Tables& tables_;
+    const FastOptions& options_;
+    bool clocked_;
+    FastTimes spent_;
     ExactFallback fallback_;
     PrimaryJob job_;
     PrimaryStage primary_;
-    ShadowStage shadow_;
+    std::optional<ShadowStage> shadow_;
     ShadingStage shading_;
     MacroTile macro_{};
+    MacroQuadrics quadrics_{};
     Tile tile_{};
 };
 
-Frame::Frame(const FastScene& scene, const FastOptions& options, Resolution resolution)
-    : scene_(scene), options_(options) {
-    const double start = seconds_now();
-    tables_ = std::make_unique<Tables>(scene, options, resolution);
-    table_seconds_ = seconds_now() - start;
+Frame::Frame(const FastScene& scene, const FastOptions& options, Resolution resolution,
+             FastTimes* times, KeptShadows& kept, ShadowListing listing)
+    : scene_(scene), options_(options), times_(times), kept_(kept), listing_(listing) {
+    StageClock clock(times != nullptr);
+    tables_ = std::make_unique<Tables>(scene, options, resolution, kept, listing);
+    workers_.resize(static_cast<std::size_t>(options.threads));
+    if (times != nullptr) clock.add_to(times->tables);
 }
 
 Frame::~Frame() = default;
 
-std::size_t Frame::memory_bytes() const {
-    return tables_->camera->memory_bytes() + tables_->shadow->memory_bytes() +
-           tables_->shading->tables().memory_bytes();
+// Tables are for rays from one point.
+bool Frame::can_show(const LocalFrame& frame, const Camera& camera) {
+    return !camera.window && max_norm(frame.local(camera.position)) < kFarthestCamera;
 }
 
-Image Frame::render(FastTimes* times) {
+std::size_t Frame::memory_bytes() const {
+    return tables_->camera->memory_bytes() + tables_->shading->tables().memory_bytes() +
+           tables_->hits.memory_bytes() + (tables_->shadow ? tables_->shadow->memory_bytes() : 0);
+}
+
+template <typename Work>
+void Frame::for_each_tile(Work&& work) {
+    for_each_index(options_.threads, tables_->tiles.size(), [&](std::size_t i, int thread) {
+        std::unique_ptr<Worker>& worker = workers_[static_cast<std::size_t>(thread)];
+        if (!worker)
+            worker = std::make_unique<Worker>(scene_, *tables_, options_, times_ != nullptr);
+        work(*worker, i);
+    });
+}
+
+void Frame::find_hits() {
+    Hits& hits = tables_->hits;
+    const std::vector<TilePlace>& tiles = tables_->tiles;
+    hits.tiles.resize(tiles.size());
+    if (scene_.slot_end() != scene_.triangle_end()) hits.quadrics.resize(tiles.size());
+    for_each_tile([&](Worker& worker, std::size_t i) {
+        worker.find(tiles[i], hits.tiles[i], hits.quadrics_of(i));
+        hits.seen->add(hits.tiles[i].slot);
+        add(options_.progress, pixels_of(tiles[i], tables_->rays.resolution));
+    });
+}
+
+void Frame::make_tables_of_hits() {
+    const BigVector<Slot> seen = tables_->hits.seen->slots();
+    for_each_chunk(scene_, seen, static_cast<Slot>(seen.size()), options_.threads,
+                   [&](const TriangleChunk& chunk) { tables_->surfaces->take(chunk); });
+    // Where most is seen most may hide something.
+    constexpr std::size_t kMostSeen = 4;
+    if (listing_ != ShadowListing::kMeasured || seen.size() * kMostSeen <= scene_.slot_end()) {
+        find_wanted();
+        tables_->wanted_shadow.emplace(scene_, options_.isa, options_.threads,
+                                       tables_->hits.wanted);
+        tables_->shadow = &*tables_->wanted_shadow;
+        return;
+    }
+    tables_->shadow = kept_.find(scene_.scene().lights);
+    if (tables_->shadow != nullptr) return;
+    tables_->shadow = &kept_.make(scene_, options_.isa, options_.threads, [&](ShadowTables& all) {
+        fill_tables(scene_, options_.threads, all);
+    });
+}
+
+void Frame::find_wanted() {
+    std::vector<std::optional<WantedDepths>>& all = tables_->hits.wanted;
+    for (const Light& light : scene_.scene().lights) {
+        std::optional<WantedDepths>& wanted = all.emplace_back();
+        if (light.casts_shadow)
+            wanted = WantedDepths::of(scene_, LightPoint(light, scene_.frame()), options_.isa);
+    }
+    for_each_tile([&](Worker& worker, std::size_t i) {
+        worker.want(i, [&](std::size_t light, const Tile& tile, const TileMask& wanted) {
+            all[light]->add(tile, wanted);
+        });
+    });
+    for (std::optional<WantedDepths>& wanted : all)
+        if (wanted) wanted->finish();
+}
+
+Image Frame::render() {
     const Resolution size = tables_->rays.resolution;
     Image image = Image::unset(size.width, size.height);
-    const std::vector<TilePlace>& tiles = tables_->tiles;
-    const auto threads = static_cast<std::size_t>(options_.threads);
-    std::vector<FastTimes> spent(threads);
-    std::vector<std::unique_ptr<Worker>> workers(threads);  // made by their threads
+    if (tables_->two_passes) {
+        begin(options_.progress, "primary rays", pixel_count(size));
+        find_hits();
+        StageClock clock(times_ != nullptr);
+        make_tables_of_hits();
+        if (times_ != nullptr) clock.add_to(times_->tables);
+    }
     begin(options_.progress, "pixels", pixel_count(size));
-    for_each_index(options_.threads, tiles.size(), [&](std::size_t i, int thread) {
-        std::unique_ptr<Worker>& worker = workers[thread];
-        if (!worker) worker = std::make_unique<Worker>(scene_, *tables_, options_);
-        worker->trace(tiles[i], image, times ? &spent[thread] : nullptr);
-        add(options_.progress, pixels_of(tiles[i], size));
+    for_each_tile([&](Worker& worker, std::size_t i) {
+        worker.shade(i, image);
+        add(options_.progress, pixels_of(tables_->tiles[i], size));
     });
-    if (times != nullptr) {
-        times->tables += table_seconds_;
-        for (const FastTimes& part : spent) {
-            times->primary += part.primary;
-            times->shadow += part.shadow;
-            times->shading += part.shading;
-        }
+    if (times_ == nullptr) return image;
+    for (const std::unique_ptr<Worker>& worker : workers_) {
+        if (!worker) continue;
+        times_->primary += worker->spent().primary;
+        times_->shadow += worker->spent().shadow;
+        times_->shading += worker->spent().shading;
     }
     return image;
 }

@@ -1,32 +1,54 @@
 #pragma once
 
+#include <cstdint>
+#include <memory>
 #include <vector>
 
+#include "fast/frame/kept_shadows.h"
 #include "fast/scene/fast_scene.h"
 #include "nuvo/image/image.h"
 #include "nuvo/render/fast.h"
 
 namespace nuvo {
 
+/// For which items shadows are made: for all before the first pixel, or, once it is known what all
+/// pixels show, for those that may stand before some lit point. Pictures are the same.
+enum class ShadowListing : std::uint8_t { kMeasured, kAll, kWanted };
+
 /// All that one picture needs, and the loop over its tiles.
 class Frame {
   public:
-    Frame(const FastScene& scene, const FastOptions& options, Resolution resolution);
+    /// Whether floats tell enough of a scene that this camera sees.
+    static bool can_show(const LocalFrame& frame, const Camera& camera);
+
+    /// Adds to `times` if it is given. Keeps references.
+    Frame(const FastScene& scene, const FastOptions& options, Resolution resolution,
+          FastTimes* times, KeptShadows& kept, ShadowListing listing = ShadowListing::kMeasured);
     ~Frame();
 
-    /// `options.threads` threads take tiles from one counter.
-    Image render(FastTimes* times);
-    /// Bytes of the tables.
+    /// `options.threads` threads take tiles from one counter. Once.
+    Image render();
+    /// Bytes of the tables that the picture took.
     std::size_t memory_bytes() const;
 
   private:
+    struct Hits;
     struct Tables;
     class Worker;
 
+    template <typename Work>
+    void for_each_tile(Work&& work);
+    void find_hits();
+    void make_tables_of_hits();
+    void find_wanted();
+
     const FastScene& scene_;
     FastOptions options_;
+    FastTimes* times_;
+    KeptShadows& kept_;
+    ShadowListing listing_;
     std::unique_ptr<Tables> tables_;
-    double table_seconds_ = 0;
+    std::vector<std::unique_ptr<Worker>> workers_;  // made by their threads
 };
 
 }  // namespace nuvo

@@ -10,6 +10,13 @@ namespace nuvo {
 inline constexpr int kMacroTiles = 4;  ///< a side
 inline constexpr int kMacroSide = kMacroTiles * kTileSide;
 
+/// What a macro tile's hits on quadrics have besides; each as in Tile.
+struct MacroQuadrics {
+    static constexpr int kLanes = kMacroTiles * kMacroTiles * kTileLanes;
+    float normal[3][kLanes];
+    float error[kLanes];
+};
+
 /// 4 x 4 tiles whose primary rays are traced together. What tiles hold stands tile by tile: block b
 /// of tile t is block 16 t + b.
 struct alignas(64) MacroTile {
@@ -26,14 +33,12 @@ struct alignas(64) MacroTile {
     Slot slot[kLanes];
     float near_low[kLanes];
     float near_high[kLanes];
-    float quadric_normal[3][kLanes];
-    float quadric_error[kLanes];
 
     int tile_x(int tile) const { return x + tile % kMacroTiles * kTileSide; }
     int tile_y(int tile) const { return y + tile / kMacroTiles * kTileSide; }
 
-    /// Copies one of its tiles; `quadrics`: whether the scene has any.
-    void copy(int tile, bool quadrics, Tile& out) const {
+    /// Copies one of its tiles; `quadrics`: null if the scene has none.
+    void copy(int tile, const MacroQuadrics* quadrics, Tile& out) const {
         out.x = tile_x(tile);
         out.y = tile_y(tile);
         copy_part(inside, tile, out.inside);
@@ -41,10 +46,10 @@ struct alignas(64) MacroTile {
         copy_part(slot, tile, out.slot);
         copy_part(near_low, tile, out.near_low);
         copy_part(near_high, tile, out.near_high);
-        if (!quadrics) return;
+        if (quadrics == nullptr) return;
         for (int axis = 0; axis < 3; ++axis)
-            copy_part(quadric_normal[axis], tile, out.quadric_normal[axis]);
-        copy_part(quadric_error, tile, out.quadric_error);
+            copy_part(quadrics->normal[axis], tile, out.quadric_normal[axis]);
+        copy_part(quadrics->error, tile, out.quadric_error);
     }
 
   private:

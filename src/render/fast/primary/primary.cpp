@@ -34,9 +34,10 @@ using Floats4 = Lanes<float, 4>;
 
 class PrimaryTracer {
   public:
-    PrimaryTracer(PrimaryJob& job, MacroTile& tile)
+    PrimaryTracer(PrimaryJob& job, MacroTile& tile, MacroQuadrics* quadrics)
         : job_(job),
           tile_(tile),
+          quadric_hits_(quadrics),
           culling_(tile),
           box_maker_(job.camera),
           triangle_maker_(job.camera, job.scene.scene().camera.position, job.scene.frame().scale),
@@ -367,9 +368,10 @@ class PrimaryTracer {
             tile_.slot[lane] = slot;
             tile_.near_low[lane] = nearest->low;
             tile_.near_high[lane] = nearest->high;
+            if (quadric_hits_ == nullptr) continue;
             for (int axis = 0; axis < 3; ++axis)
-                tile_.quadric_normal[axis][lane] = static_cast<float>(nearest->normal[axis]);
-            tile_.quadric_error[lane] = 2 * kFloatRoundoff;
+                quadric_hits_->normal[axis][lane] = static_cast<float>(nearest->normal[axis]);
+            quadric_hits_->error[lane] = 2 * kFloatRoundoff;
         }
     }
 
@@ -402,6 +404,7 @@ class PrimaryTracer {
 
     PrimaryJob& job_;
     MacroTile& tile_;
+    MacroQuadrics* quadric_hits_;
     BoxCulling culling_;
     PixelBoxMaker box_maker_;
     TriangleMaker triangle_maker_;
@@ -422,7 +425,9 @@ class PrimaryTracer {
     SphereConics conics_;
 };
 
-void trace_primary(PrimaryJob& job, MacroTile& tile) { PrimaryTracer(job, tile).run(); }
+void trace_primary(PrimaryJob& job, MacroTile& tile, MacroQuadrics* quadrics) {
+    PrimaryTracer(job, tile, quadrics).run();
+}
 
 }  // namespace nuvo::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -22,14 +22,17 @@ struct PrimaryJob {
     PlaneOrders orders{scene, camera};
 };
 
-/// Finds the nearest primitives of a macro tile whose x and y are set; fills the rest.
+/// Finds the nearest primitives of a macro tile whose x and y are set; fills the rest, and what is
+/// told of quadrics if the scene has any.
 class PrimaryStage {
   public:
     explicit PrimaryStage(InstructionSet isa);
-    void trace(PrimaryJob& job, MacroTile& tile) const { trace_(job, tile); }
+    void trace(PrimaryJob& job, MacroTile& tile, MacroQuadrics* quadrics) const {
+        trace_(job, tile, quadrics);
+    }
 
   private:
-    void (*trace_)(PrimaryJob&, MacroTile&);
+    void (*trace_)(PrimaryJob&, MacroTile&, MacroQuadrics*);
 };
 
 }  // namespace nuvo

@@ -132,6 +132,8 @@ FastScene::FastScene(const Scene& scene, const Primitives& primitives,
     LocalItems items = LocalItemsMaker(*this).make(options.threads);
     octree_ = octree_of(items, options);
     triangles_ = std::move(items.triangles);
+    if (!octree_.bounds.empty())
+        reach_ = std::max(max_norm(octree_.bounds.min), max_norm(octree_.bounds.max));
 }
 
 void FastScene::order_slots(const Bounds3& box) {

@@ -49,6 +49,8 @@ class FastScene {
     /// Of all boxes of primitives; world space.
     double largest_coordinate() const { return largest_coordinate_; }
     const CompactOctree& octree() const { return octree_; }
+    /// Bounds |coordinate| in the octree's box, in the local frame; 1 for an empty scene.
+    double reach() const { return reach_; }
     /// Another one; `overlaps` of the options is filled in.
     CompactOctree octree(const CompactBuildOptions& options) const;
 
@@ -91,6 +93,7 @@ class FastScene {
     BigVector<QuadricSlot> quadrics_;
     BigVector<LocalTriangle> triangles_;
     CompactOctree octree_;
+    double reach_ = 1;
 };
 
 }  // namespace nuvo

@@ -24,27 +24,25 @@ void ask_for(const TriangleMesh& mesh) {
 
 }  // namespace
 
-void TriangleChunk::fetch(const FastScene& scene, Slot first_slot, Slot last_slot) {
-    first = first_slot;
-    last = last_slot;
+// `end`: of the places that slot_at() knows.
+template <typename SlotAt>
+void TriangleChunk::gather(const FastScene& scene, Slot end, SlotAt&& slot_at) {
     const std::vector<Object>& objects = scene.scene().objects;
     const auto mesh_of = [&](std::uint32_t object) -> const TriangleMesh& {
         return *std::get_if<TriangleMesh>(&objects[object].shape);
     };
-    Slot slot = first;
-    while (slot < last) {
-        const std::uint32_t object = scene.source(slot).object;
+    Slot place = first;
+    while (place < last) {
+        const std::uint32_t object = scene.source(slot_at(place)).object;
         const TriangleMesh& mesh = mesh_of(object);
         const std::uint32_t front_only = scene.front_only(objects[object]) ? 1 : 0;
         const std::uint32_t shadowless = objects[object].casts_shadow ? 0 : 1;
-        if (scene.triangle_end() - slot > kAhead)
-            ask_for(mesh_of(scene.source(slot + kAhead).object));
-        for (; slot < last && scene.source(slot).object == object; ++slot) {
-            const IndexTriple& corners = mesh.triangles[scene.source(slot).triangle];
-            const Slot place = slot - first;
-            TriangleBatch& batch = batches[place / TriangleBatch::kSize];
+        if (end - place > kAhead) ask_for(mesh_of(scene.source(slot_at(place + kAhead)).object));
+        for (; place < last && scene.source(slot_at(place)).object == object; ++place) {
+            const IndexTriple& corners = mesh.triangles[scene.source(slot_at(place)).triangle];
+            TriangleBatch& batch = batches[(place - first) / TriangleBatch::kSize];
             auto& to = batch.corner;
-            const std::size_t lane = place % TriangleBatch::kSize;
+            const std::size_t lane = (place - first) % TriangleBatch::kSize;
             batch.front_only = (lane == 0 ? 0 : batch.front_only) | front_only << lane;
             batch.shadowless = (lane == 0 ? 0 : batch.shadowless) | shadowless << lane;
             for (std::size_t i = 0; i < 3; ++i) {
@@ -55,27 +53,81 @@ void TriangleChunk::fetch(const FastScene& scene, Slot first_slot, Slot last_slo
             }
         }
     }
-    for (; (slot - first) % TriangleBatch::kSize != 0; ++slot)
-        for (auto& column : batches[(slot - first) / TriangleBatch::kSize].corner)
-            column[(slot - first) % TriangleBatch::kSize] = column[0];
+    for (; (place - first) % TriangleBatch::kSize != 0; ++place)
+        for (auto& column : batches[(place - first) / TriangleBatch::kSize].corner)
+            column[(place - first) % TriangleBatch::kSize] = column[0];
 }
 
-void for_each_chunk(const FastScene& scene, int threads,
-                    const std::function<void(const TriangleChunk&)>& work) {
+void TriangleChunk::fetch(const FastScene& scene, Slot first_slot, Slot last_slot) {
+    slots = nullptr;
+    first = first_slot;
+    last = last_slot;
+    gather(scene, scene.triangle_end(), [](Slot place) { return place; });
+}
+
+void TriangleChunk::fetch(const FastScene& scene, const BigVector<Slot>& list, Slot first_place,
+                          Slot last_place) {
+    slots = &list;
+    first = first_place;
+    last = last_place;
+    // Far apart in memory, each behind the one before.
+    for (Slot i = first; i < last; ++i) __builtin_prefetch(&scene.source(list[i]));
+    const auto each = [&](auto&& use) {
+        for (Slot i = first; i < last; ++i) {
+            const PrimitiveSource& source = scene.source(list[i]);
+            use(*std::get_if<TriangleMesh>(&scene.scene().objects[source.object].shape),
+                source.triangle);
+        }
+    };
+    each([](const TriangleMesh& mesh, std::uint32_t triangle) {
+        __builtin_prefetch(&mesh.triangles[triangle]);
+    });
+    each([](const TriangleMesh& mesh, std::uint32_t triangle) {
+        for (const std::uint32_t corner : mesh.triangles[triangle])
+            __builtin_prefetch(&mesh.positions[corner]);
+    });
+    gather(scene, last, [&](Slot place) { return list[place]; });
+}
+
+namespace {
+
+// Calls work(chunk) for parts of `count` places that fetch(chunk, first, last) has filled.
+template <typename Fetch>
+void for_each_chunk_of(std::size_t count, int threads, Fetch&& fetch,
+                       const std::function<void(const TriangleChunk&)>& work) {
     // A thread takes so many chunks at a time: few, so that a small scene's can be shared.
     constexpr std::size_t kChunksAtOnce = 8;
     constexpr std::size_t kStep = kChunksAtOnce * TriangleChunk::kTriangles;
-    const std::size_t end = scene.triangle_end();
-    for_each_index(threads, (end + kStep - 1) / kStep, [&](std::size_t i, int) {
+    for_each_index(threads, (count + kStep - 1) / kStep, [&](std::size_t i, int) {
         TriangleChunk chunk;
-        const std::size_t last = std::min(end, (i + 1) * kStep);
+        const std::size_t last = std::min(count, (i + 1) * kStep);
         for (std::size_t first = i * kStep; first < last; first += TriangleChunk::kTriangles) {
-            chunk.fetch(
-                scene, static_cast<Slot>(first),
+            fetch(
+                chunk, static_cast<Slot>(first),
                 static_cast<Slot>(std::min<std::size_t>(last, first + TriangleChunk::kTriangles)));
             work(chunk);
         }
     });
+}
+
+}  // namespace
+
+void for_each_chunk(const FastScene& scene, int threads,
+                    const std::function<void(const TriangleChunk&)>& work) {
+    for_each_chunk_of(
+        scene.triangle_end(), threads,
+        [&](TriangleChunk& chunk, Slot first, Slot last) { chunk.fetch(scene, first, last); },
+        work);
+}
+
+void for_each_chunk(const FastScene& scene, const BigVector<Slot>& slots, Slot count, int threads,
+                    const std::function<void(const TriangleChunk&)>& work) {
+    for_each_chunk_of(
+        count, threads,
+        [&](TriangleChunk& chunk, Slot first, Slot last) {
+            chunk.fetch(scene, slots, first, last);
+        },
+        work);
 }
 
 void for_each_quadric_part(const FastScene& scene, int threads,

@@ -27,18 +27,25 @@ struct alignas(64) TriangleBatch {
     }
 };
 
-/// Some triangles side by side, first a multiple of TriangleBatch::kSize.
+/// Some triangles by their places: the slots, or those in a list. first is a multiple of
+/// TriangleBatch::kSize.
 struct TriangleChunk {
     static constexpr Slot kTriangles = 256;
 
-    /// Fetches the triangles of [first, last).
+    /// Fetches the triangles of the slots [first, last).
     void fetch(const FastScene& scene, Slot first_slot, Slot last_slot);
+    /// Fetches those of places [first, last) of a list of slots.
+    void fetch(const FastScene& scene, const BigVector<Slot>& list, Slot first_place,
+               Slot last_place);
 
+    Slot slot(Slot place) const { return slots ? (*slots)[place] : place; }
+
+    const BigVector<Slot>* slots = nullptr;  ///< by place; null: places are slots
     Slot first = 0;
     Slot last = 0;
     std::array<TriangleBatch, kTriangles / TriangleBatch::kSize> batches;
 
-    /// Calls work(batch, its first slot, its number of triangles); beyond that number a batch is
+    /// Calls work(batch, its first place, its number of triangles); beyond that number a batch is
     /// filled up with its first triangle.
     template <typename Work>
     void for_each_batch(Work&& work) const {
@@ -46,10 +53,18 @@ struct TriangleChunk {
             work(batches[(slot - first) / TriangleBatch::kSize], slot,
                  std::min<std::size_t>(TriangleBatch::kSize, last - slot));
     }
+
+  private:
+    template <typename SlotAt>
+    void gather(const FastScene& scene, Slot end, SlotAt&& slot_at);
 };
 
 /// Calls work(chunk) for all triangles of the scene, on up to `threads` threads at a time.
 void for_each_chunk(const FastScene& scene, int threads,
+                    const std::function<void(const TriangleChunk&)>& work);
+
+/// The same for the triangles of a list of slots, by their places.
+void for_each_chunk(const FastScene& scene, const BigVector<Slot>& slots, Slot count, int threads,
                     const std::function<void(const TriangleChunk&)>& work);
 
 /// Whether a table's constructor fills what it holds for each triangle and quadric, or leaves

@@ -44,7 +44,8 @@ class TriangleFiller {
         const FastScene& scene = tables_.scene;
         std::uint32_t object = ~0U;
         chunk.for_each_batch(
-            [&](const TriangleBatch& batch, Slot first, std::size_t count) HWY_ATTR {
+            [&](const TriangleBatch& batch, Slot place, std::size_t count) HWY_ATTR {
+                const Slot first = chunk.slot(place);
                 for (std::size_t lane = 0; lane < count; ++lane) {
                     const PrimitiveSource& source = scene.source(first + static_cast<Slot>(lane));
                     if (source.object != object) {

@@ -78,8 +78,9 @@ class ShadowTracer {
             [](float) { return false; },
             [&](const std::uint32_t* items, std::uint32_t count, float) HWY_ATTR {
                 for (std::uint32_t i = 0; i < count && !too_many(); ++i, ++tests)
-                    if (tables.hides(light_, items[i]) && !mailbox.seen(items[i]))
-                        block.test(context_, items[i], lanes);
+                    if (context_.job.walk_planes.may_hide(light_, items[i]) &&
+                        !mailbox.seen(items[i]))
+                        block.test_met(context_, items[i], lanes);
                 return (block.waiting() & lanes) == 0 || too_many();
             });
         if (!too_many()) return;
@@ -109,8 +110,8 @@ class ShadowTracer {
         const auto leaf = [&](const std::uint32_t* items, std::uint32_t count) {
             int near = 0;
             for (std::uint32_t i = 0; i < count; ++i) {
-                if (!tables.hides(light_, items[i]) || mailbox.seen(items[i]) ||
-                    !fallback_.comes_near(ray, items[i]))
+                if (!context_.job.walk_planes.may_hide(light_, items[i]) ||
+                    mailbox.seen(items[i]) || !fallback_.comes_near(ray, items[i]))
                     continue;
                 if (++near > kCrowded) return fallback_.blocks_any(ray, {items, count});
                 if (fallback_.blocks(ray, items[i])) return true;

@@ -8,6 +8,7 @@
 #include "fast/scene/mailbox.h"
 #include "fast/shadow/free_pairs.h"
 #include "fast/shadow/shadow_tables.h"
+#include "fast/shadow/walk_planes.h"
 #include "fast/tile/exact_fallback.h"
 #include "fast/tile/tile.h"
 
@@ -29,6 +30,7 @@ struct ShadowJob {
     Mailbox mailbox{};
     std::vector<OpenShadow> open{};
     FreePairs free_pairs{tables.scene()};
+    WalkPlanes walk_planes{tables};
 };
 
 /// Decides which points of a tile the lights reach. For one thread.

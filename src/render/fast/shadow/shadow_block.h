@@ -24,12 +24,11 @@ namespace nuvo::HWY_NAMESPACE {
 /// One light and what tells its shadows.
 struct ShadowContext {
     ShadowContext(ShadowJob& of, std::size_t index)
-        : job(of), light(index), table(of.tables.table(index)), planes(of.tables.planes(index)) {}
+        : job(of), light(index), table(of.tables.table(index)) {}
 
     ShadowJob& job;
     std::size_t light;
     const ShadowTable& table;
-    const ShadowPlanes* planes;
 };
 
 class ShadowBlock {
@@ -62,23 +61,40 @@ class ShadowBlock {
     /// Ends the waiting of lanes.
     HWY_INLINE void block(std::uint32_t lanes) { waiting_ &= ~lanes; }
 
-    /// Asks whether `slot` hides the light from `lanes`; of other lanes it may find so, too.
-    HWY_INLINE void test(const ShadowContext& context, Slot slot, std::uint32_t lanes) {
-        if (slot < context.job.tables.scene().triangle_end())
-            test_triangle(context, slot, lanes);
+    /// Whether those of `lanes` that wait all lie on the triangle, which does not hide them then.
+    HWY_INLINE bool only_own(Slot triangle, std::uint32_t lanes) const {
+        return (waiting_ & lanes & ~own(triangle)) == 0;
+    }
+    /// Asks whether the item at a place of the table hides the light from `lanes`; of other lanes
+    /// it may find so, too.
+    HWY_INLINE void test(const ShadowContext& context, Slot place, std::uint32_t lanes) {
+        const ShadowTable& table = context.table;
+        if (place < table.triangles)
+            test_triangle(
+                context, table.planes[place], [&] { return table.slot(place); }, lanes);
         else
+            test_round(context, table.slot(place), lanes);
+    }
+    /// The same of a slot that a walk meets.
+    HWY_INLINE void test_met(const ShadowContext& context, Slot slot, std::uint32_t lanes) {
+        if (slot >= context.job.tables.scene().triangle_end())
             test_round(context, slot, lanes);
+        else if (const ShadowPlanes* const planes = context.job.walk_planes.of(context.light, slot))
+            test_triangle(
+                context, *planes, [&] { return slot; }, lanes);
     }
 
   private:
     // Outweighs the roundings of the sum that it multiplies.
     static constexpr float kRounded = 1 + 4 * kFloatRoundoff;
 
-    HWY_INLINE void test_triangle(const ShadowContext& context, Slot slot, std::uint32_t lanes) {
-        const Floats depth = hidden(context.planes[slot], points_);
+    template <typename SlotOf>
+    HWY_INLINE void test_triangle(const ShadowContext& context, const ShadowPlanes& planes,
+                                  SlotOf&& slot_of, std::uint32_t lanes) {
+        const Floats depth = hidden(planes, points_);
         block((depth > plane_error_).bits());
         const std::uint32_t open = waiting_ & lanes & ~(depth < -plane_error_).bits();
-        if (HWY_UNLIKELY(open != 0)) leave_triangle(context, slot, open, depth > Floats(0.0F));
+        if (HWY_UNLIKELY(open != 0)) leave_triangle(context, slot_of(), open, depth > Floats(0.0F));
     }
     // A triangle does not hide its own points, nor those of one that lies on the light's side of
     // it.

@@ -1,10 +1,6 @@
 #pragma once
 
-#include <cmath>
 #include <cstdint>
-
-#include "fast/scene/fast_scene.h"
-#include "nuvo/scene/light.h"
 
 // What a triangle hides from a light is a cone cut off by the triangle: the points on the inner
 // side of the three planes through the light and an edge, and beyond the triangle's own (shadow
@@ -14,34 +10,12 @@
 
 namespace nuvo {
 
-/// A light as the point toward / weight of the local frame; weight 0: the direction `toward` to the
-/// light. No component is greater than 1; the weight is a power of two.
-struct LightPoint {
-    LightPoint(const Light& light, const LocalFrame& frame);
-
-    Vector3 toward;
-    double weight = 0;
-    bool finite = true;  ///< false: out of the range of doubles, nothing below is sure
-};
-
 /// Four functions n.P + w of a point P of the local frame, |n|_1 = 1, positive where the triangle
 /// hides P from the light. The first three belong to the edges, the last to the triangle's plane.
 /// One that double arithmetic cannot place well enough is 0 everywhere: it decides nothing.
 struct alignas(64) ShadowPlanes {
     float plane[4][4];  ///< n, w
 };
-
-/// A sphere, or one around an ellipsoid, in the local frame.
-struct Quadric {
-    float center[3];
-    float radius;
-};
-/// Its largest number.
-inline float size_of(const Quadric& quadric) {
-    float size = quadric.radius;
-    for (const float x : quadric.center) size = std::fmax(size, std::fabs(x));
-    return size;
-}
 
 /// Where a light stands towards a quadric; kBlind: it sees no front of it, or the shape casts
 /// no shadow.

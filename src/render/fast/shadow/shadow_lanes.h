@@ -6,6 +6,7 @@
 #define NUVO_RENDER_FAST_SHADOW_LANES_H_
 #endif
 
+#include "fast/light/light_cells.h"
 #include "fast/shadow/shadow_tables.h"
 #include "fast/simd/lanes.h"
 #include "fast/tile/beam_box.h"
@@ -15,10 +16,6 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace nuvo::HWY_NAMESPACE {
-
-struct Points {
-    Floats x, y, z;
-};
 
 /// The least of the four functions of `t` at the points.
 HWY_INLINE Floats hidden(const ShadowPlanes& t, const Points& p) {

@@ -11,7 +11,7 @@
 #include <bit>
 #include <cmath>
 
-#include "fast/shadow/light_cells.h"
+#include "fast/light/light_cells.h"
 #include "fast/shadow/shadow_block.h"
 #include "fast/simd/lanes.h"
 
@@ -30,7 +30,7 @@ class ShadowLookup {
     HWY_INLINE std::uint32_t add(int b) {
         if (!buffer_.usable()) return 0;
         const ShadowBlock& block = blocks_[b];
-        const LightPlaces places(buffer_, context_.table.light, block.points(), block.error());
+        const LightPlaces places(buffer_.map, context_.table.light, block.points(), block.error());
         const std::uint32_t good = block.waiting() & places.good;
         Stored stored;
         for (int i = 0; i < 2; ++i) places.step[i].store(stored.step[i]);
@@ -74,7 +74,7 @@ class ShadowLookup {
         std::uint32_t end;
     };
     struct Candidate {
-        Slot slot;
+        Slot place;
         std::uint16_t block;
         std::uint16_t lanes;
     };
@@ -101,13 +101,13 @@ class ShadowLookup {
     HWY_NOINLINE std::uint32_t add_rough(int b, const LightPlaces& places, std::uint32_t lanes) {
         constexpr int kFew = 16;
         const Floats& error = blocks_[b].error();
-        const Floats moved = places.stretch * error;
+        const Floats& moved = places.moved;
         Rough rough;
         RayMask on_face = moved >= Floats(0.0F);
         for (int i = 0; i < 2; ++i) {
-            integers_from(step_of(buffer_, i, places.u[i] - moved)).store(rough.low[i]);
-            integers_from(step_of(buffer_, i, places.u[i] + moved)).store(rough.high[i]);
-            if (buffer_.inside) on_face = on_face & (abs(places.u[i]) + moved < Floats(1.0F));
+            integers_from(step_of(buffer_.map, i, places.u[i] - moved)).store(rough.low[i]);
+            integers_from(step_of(buffer_.map, i, places.u[i] + moved)).store(rough.high[i]);
+            if (buffer_.map.inside) on_face = on_face & (abs(places.u[i]) + moved < Floats(1.0F));
         }
         (places.depth + error).store(rough.depth);
         places.face.store(rough.face);
@@ -185,22 +185,25 @@ class ShadowLookup {
             hwy::Prefetch(entries + line * static_cast<int>(64 / sizeof(LightEntry)));
     }
     HWY_INLINE void scan(const Visit& visit) {
-        const Slot triangle_end = context_.job.tables.scene().triangle_end();
+        const ShadowTable& table = context_.table;
+        const ShadowBlock& block = blocks_[visit.block];
         for (std::uint32_t at = visit.begin; at < visit.end; at += 16) {
             const LightEntry* const entries = buffer_.entries.data() + at;
             std::uint32_t found = meets(entries, visit);
             if (visit.end - at < 16) found &= (1U << (visit.end - at)) - 1;
             for (; found != 0; found &= found - 1) {
-                const Slot slot = entries[std::countr_zero(found)].slot;
-                if (slot < triangle_end)
-                    hwy::Prefetch(context_.planes + slot);
-                else
-                    hwy::Prefetch(&context_.job.tables.quadric(slot));
-                candidates_[candidate_count_++] = {slot, visit.block, visit.lanes};
+                const Slot place = entries[std::countr_zero(found)].place;
+                if (place < table.triangles) {
+                    if (block.only_own(table.slot(place), visit.lanes)) continue;
+                    hwy::Prefetch(&table.planes[place]);
+                } else {
+                    hwy::Prefetch(&context_.job.tables.quadric(table.slot(place)));
+                }
+                candidates_[candidate_count_++] = {place, visit.block, visit.lanes};
             }
             if (candidate_count_ <= kMaxCandidates - 16) continue;
             test_candidates();
-            if ((blocks_[visit.block].waiting() & visit.lanes) == 0) return;
+            if ((block.waiting() & visit.lanes) == 0) return;
         }
     }
     // Which of 16 entries may stand before the visiting points.
@@ -218,7 +221,7 @@ class ShadowLookup {
             const Candidate& candidate = candidates_[i];
             ShadowBlock& block = blocks_[candidate.block];
             if ((block.waiting() & candidate.lanes) != 0)
-                block.test(context_, candidate.slot, candidate.lanes);
+                block.test(context_, candidate.place, candidate.lanes);
         }
         candidate_count_ = 0;
     }

@@ -1,5 +1,6 @@
 #include "fast/shadow/shadow_planes.h"
 
+#include <algorithm>
 #include <bit>
 
 #include "nuvo/math/error_bounds.h"
@@ -141,6 +142,12 @@ namespace nuvo {
 
 void make_shadow_planes(const ShadowPlanesJob& job, const TriangleChunk& chunk,
                         InstructionSet isa) {
+    if (!job.light.finite) {
+        std::fill(job.out + chunk.first, job.out + chunk.last, ShadowPlanes{});
+        std::fill(job.hides + chunk.first / 8, job.hides + (chunk.last + 7) / 8,
+                  std::uint8_t{0xff});
+        return;
+    }
     (NUVO_FOR_ISA(isa, make_planes))(job, chunk);
 }
 

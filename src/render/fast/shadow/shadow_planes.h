@@ -12,13 +12,14 @@ struct ShadowPlanesJob {
     const FastScene& scene;
     const LightPoint& light;
     double reach;
-    ShadowPlanes* out;    ///< of slot 0
+    ShadowPlanes* out;    ///< of place 0
     std::uint8_t* hides;  ///< by batch of 8: bit i says that triangle i may hide something
     const Light& exact_light;
 };
 
-/// Makes the records of a chunk, but for triangles that hide nothing: of those whose back is
-/// invisible the light has to see the front.
+/// Makes the records of a chunk, at its places, but for triangles that hide nothing: of those whose
+/// back is invisible the light has to see the front. From a light that is not finite all may hide
+/// something, and their planes decide nothing.
 void make_shadow_planes(const ShadowPlanesJob& job, const TriangleChunk& chunk, InstructionSet isa);
 
 /// On which side of the triangle's plane the light stands, exactly: the sign of n.(L - a), or of

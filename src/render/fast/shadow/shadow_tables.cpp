@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fast/light/wanted_items.h"
 #include "fast/shadow/shadow_planes.h"
 #include "nuvo/geometry/predicates.h"
 #include "nuvo/math/error_bounds.h"
@@ -39,70 +40,90 @@ double radius_around(const Ellipsoid& ellipsoid, double scale, double error) {
 
 }  // namespace
 
-LightPoint::LightPoint(const Light& light, const LocalFrame& frame) {
-    if (light.kind == Light::Kind::kDirectional) {
-        toward = -light.direction;
-        return;
-    }
-    toward = frame.local(light.location);
-    weight = 1;
-    const double norm = max_norm(toward);
-    if (norm > 1) {
-        int exponent = 0;
-        std::frexp(norm, &exponent);
-        weight = std::ldexp(1.0, -exponent);
-        toward = toward * weight;
-    }
-    finite = std::isfinite(norm) && std::isfinite(toward.x + toward.y + toward.z);
-}
-
 ShadowTables::ShadowTables(const FastScene& scene, InstructionSet isa, int threads,
                            TableFilling filling)
     : scene_(scene), isa_(isa), threads_(threads), dense_(rounded_up(scene.frame().dense)) {
-    const Bounds3T<float>& box = scene.octree().bounds;
-    reach_ = std::fmax(max_norm(box.min), max_norm(box.max));
-    if (!std::isfinite(reach_)) reach_ = 1;  // an empty scene
-    // A surface point's error is at most surface_tolerance() of its primitive's coordinates, where
-    // an ellipsoid counts with its reach, at most twice these; and the roundings of the point.
-    touch_ = 4 * surface_tolerance() * scene.largest_coordinate() * scene.frame().scale +
-             kFloatUnderflow;
-    plane_error_ = rounded_up(2 * touch_ + kFloatUnderflow);
-    quadric_touch_ = rounded_up(kTouch * touch_ + kFloatUnderflow);
-    quadric_error_ = rounded_up(kQuadricError * reach_ + quadric_touch_);
-    quadrics_.resize(scene.slot_end() - scene.triangle_end());
-    const std::vector<Light>& lights = scene.scene().lights;
-    const auto casts = [](const Light& light) { return light.casts_shadow; };
-    planes_.resize(static_cast<std::size_t>(std::count_if(lights.begin(), lights.end(), casts)) *
-                   scene.triangle_end());
-    std::size_t made = 0;
-    for (const Light& light : lights) {
-        ShadowTable& table = tables_.emplace_back(LightPoint(light, scene.frame()));
-        if (!light.casts_shadow) continue;
-        table.first_plane = made;
-        made += scene.triangle_end();
-        table.hides.resize(scene.triangle_end() / 8 + kReadAhead);
-        std::fill(table.hides.begin(), table.hides.end(), std::uint8_t{0});
-        if (!outside_of_all(table.light) || !scene.primitives().all_cast_shadows)
-            table.quadric_sides.resize(quadrics_.size());
-    }
+    make_tables();
+    for (std::size_t light = 0; light < tables_.size(); ++light) list_all(tables_[light], light);
     if (filling == TableFilling::kNow) fill_tables(scene, threads, *this);
 }
 
-void ShadowTables::take(const TriangleChunk& chunk) {
-    for (std::size_t i = 0; i < tables_.size(); ++i) {
-        const Light& light = scene_.scene().lights[i];
-        if (!light.casts_shadow) continue;
-        ShadowTable& table = tables_[i];
-        ShadowPlanes* const planes = planes_.data() + table.first_plane;
-        if (table.light.finite) {
-            make_shadow_planes({scene_, table.light, reach_, planes, table.hides.data(), light},
-                               chunk, isa_);
-            continue;
+ShadowTables::ShadowTables(const FastScene& scene, InstructionSet isa, int threads,
+                           const std::vector<std::optional<WantedDepths>>& wanted)
+    : scene_(scene), isa_(isa), threads_(threads), dense_(rounded_up(scene.frame().dense)) {
+    make_tables();
+    for_each_quadric_part(scene, threads, [&](QuadricSpan some) { take_quadrics(some); });
+    for (std::size_t light = 0; light < tables_.size(); ++light) {
+        ShadowTable& table = tables_[light];
+        if (!scene_.scene().lights[light].casts_shadow) continue;
+        forget_outside(table);
+        if (wanted[light]) list_wanted(table, light, *wanted[light]);
+        if (table.complete) {
+            list_all(table, light);
+            for_each_chunk(scene, threads,
+                           [&](const TriangleChunk& chunk) { make_planes(table, light, chunk); });
         }
-        std::fill(planes + chunk.first, planes + chunk.last, ShadowPlanes{});
-        std::fill(table.hides.begin() + chunk.first / 8, table.hides.begin() + (chunk.last + 7) / 8,
-                  std::uint8_t{0xff});
     }
+}
+
+void ShadowTables::make_tables() {
+    // A surface point's error is at most surface_tolerance() of its primitive's coordinates, where
+    // an ellipsoid counts with its reach, at most twice these; and the roundings of the point.
+    touch_ = 4 * surface_tolerance() * scene_.largest_coordinate() * scene_.frame().scale +
+             kFloatUnderflow;
+    plane_error_ = rounded_up(2 * touch_ + kFloatUnderflow);
+    quadric_touch_ = rounded_up(kTouch * touch_ + kFloatUnderflow);
+    quadric_error_ = rounded_up(kQuadricError * scene_.reach() + quadric_touch_);
+    quadrics_.resize(scene_.slot_end() - scene_.triangle_end());
+    for (const Light& light : scene_.scene().lights) {
+        ShadowTable& table = tables_.emplace_back(LightPoint(light, scene_.frame()));
+        if (!light.casts_shadow) continue;
+        if (!outside_of_all(table.light) || !scene_.primitives().all_cast_shadows)
+            table.quadric_sides.resize(quadrics_.size());
+    }
+}
+
+void ShadowTables::list_all(ShadowTable& table, std::size_t light) {
+    if (!scene_.scene().lights[light].casts_shadow) return;
+    table.triangles = scene_.triangle_end();
+    table.planes.resize(table.triangles);
+    table.hides.resize(table.triangles / 8 + kReadAhead);
+    std::fill(table.hides.begin(), table.hides.end(), std::uint8_t{0});
+}
+
+void ShadowTables::list_wanted(ShadowTable& table, std::size_t light, const WantedDepths& wanted) {
+    table.slots = wanted_items(items(), wanted, isa_, threads_);
+    table.complete = false;
+    LightItems listed = items();
+    listed.slots = &table.slots;
+    table.triangles = listed.triangles();
+    table.planes.resize(table.triangles);
+    table.hides.resize(table.triangles / 8 + kReadAhead);
+    std::fill(table.hides.begin(), table.hides.end(), std::uint8_t{0});
+    for_each_chunk(scene_, table.slots, table.triangles, threads_,
+                   [&](const TriangleChunk& chunk) { make_planes(table, light, chunk); });
+    listed.hides = table.hides.data();
+    table.buffer = LightBuffer(table.light, listed, isa_);
+    table.buffer.map.most_moved = wanted.map().most_moved;
+    if (table.buffer.usable()) return;
+    table.complete = true;
+    table.slots = {};
+}
+
+void ShadowTables::make_planes(ShadowTable& table, std::size_t light,
+                               const TriangleChunk& chunk) const {
+    const ShadowPlanesJob job{scene_,
+                              table.light,
+                              scene_.reach(),
+                              table.planes.data(),
+                              table.hides.data(),
+                              scene_.scene().lights[light]};
+    make_shadow_planes(job, chunk, isa_);
+}
+
+void ShadowTables::take(const TriangleChunk& chunk) {
+    for (std::size_t i = 0; i < tables_.size(); ++i)
+        if (scene_.scene().lights[i].casts_shadow) make_planes(tables_[i], i, chunk);
 }
 
 void ShadowTables::take_quadrics(QuadricSpan quadrics) {
@@ -121,11 +142,10 @@ void ShadowTables::finish() {
     for_each_index(threads_, tables_.size(), [&](std::size_t light, int) {
         ShadowTable& table = tables_[light];
         if (!scene_.scene().lights[light].casts_shadow) return;
-        table.buffer = LightBuffer(
-            table.light, {scene_, quadrics_, reach_, quadric_error_, table.hides.data()}, isa_);
-        const auto inside = std::find_if(table.quadric_sides.begin(), table.quadric_sides.end(),
-                                         [](LightSide s) { return s != LightSide::kOutside; });
-        if (inside == table.quadric_sides.end()) table.quadric_sides.clear();
+        LightItems all = items();
+        all.hides = table.hides.data();
+        table.buffer = LightBuffer(table.light, all, isa_);
+        forget_outside(table);
     });
 }
 
@@ -150,12 +170,18 @@ bool ShadowTables::outside_of_all(const LightPoint& light) const {
     if (light.weight == 0) return true;
     if (scene_.sphere_end() != scene_.slot_end()) return false;  // what is around them is not in it
     const Bounds3T<float>& box = scene_.octree().bounds;
-    const double margin = 2 * quadric_error_ + 8 * kFloatRoundoff * reach_;  // as in side()
+    const double margin = 2 * quadric_error_ + 8 * kFloatRoundoff * scene_.reach();  // as in side()
     for (int axis = 0; axis < 3; ++axis)
         if (light.toward[axis] > (box.max[axis] + margin) * light.weight ||
             light.toward[axis] < (box.min[axis] - margin) * light.weight)
             return true;
     return false;
+}
+
+void ShadowTables::forget_outside(ShadowTable& table) {
+    if (std::all_of(table.quadric_sides.begin(), table.quadric_sides.end(),
+                    [](LightSide side) { return side == LightSide::kOutside; }))
+        table.quadric_sides.clear();
 }
 
 LightSide ShadowTables::side(const LightPoint& light, const Quadric& shape,
@@ -174,9 +200,10 @@ LightSide ShadowTables::side(const LightPoint& light, const Quadric& shape,
 }
 
 std::size_t ShadowTables::memory_bytes() const {
-    std::size_t bytes = quadrics_.size() * sizeof(Quadric) + planes_.size() * sizeof(ShadowPlanes);
+    std::size_t bytes = quadrics_.size() * sizeof(Quadric);
     for (const ShadowTable& table : tables_)
-        bytes += table.hides.size() + table.quadric_sides.size() * sizeof(LightSide) +
+        bytes += table.slots.size() * sizeof(Slot) + table.planes.size() * sizeof(ShadowPlanes) +
+                 table.hides.size() + table.quadric_sides.size() * sizeof(LightSide) +
                  table.buffer.memory_bytes();
     return bytes;
 }

@@ -3,9 +3,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "fast/light/light_buffer.h"
+#include "fast/light/light_point.h"
+#include "fast/light/wanted_depths.h"
 #include "fast/scene/fast_scene.h"
 #include "fast/scene/triangle_chunk.h"
-#include "fast/shadow/light_buffer.h"
 #include "fast/shadow/shadow_geometry.h"
 #include "nuvo/math/big_vector.h"
 #include "nuvo/math/error_bounds.h"
@@ -23,12 +25,20 @@ inline constexpr float kPlaneError = 24 * kFloatRoundoff;
 /// both its ends (35).
 inline constexpr float kQuadricError = 128 * kFloatRoundoff;
 
+/// What a light needs: of all items, each at the place of its slot, or of those that may stand
+/// before a wanted point, in a list.
 struct ShadowTable {
     explicit ShadowTable(const LightPoint& from) : light(from) {}
 
+    Slot slot(Slot place) const { return complete ? place : slots[place]; }
+
     LightPoint light;
-    std::size_t first_plane = 0;         ///< where its planes begin among those of all lights
-    BigVector<std::uint8_t> hides;       ///< which triangles may hide something: 8 in a byte
+    bool complete = true;            ///< all items
+    BigVector<Slot> slots;           ///< by place, ascending; unless complete
+    Slot triangles = 0;              ///< the places of triangles end here
+    BigVector<ShadowPlanes> planes;  ///< by place
+    BigVector<std::uint8_t> hides;   ///< by place: which triangles may hide something, 8 in a byte;
+                                     ///< the planes of others are not there
     BigVector<LightSide> quadric_sides;  ///< of slots from triangle_end on; empty: all outside
     LightBuffer buffer;
 };
@@ -36,27 +46,22 @@ struct ShadowTable {
 /// What the shadow stage needs of scene and lights, shared by all threads.
 class ShadowTables {
   public:
+    /// Of all items.
     ShadowTables(const FastScene& scene, InstructionSet isa, int threads = 1,
                  TableFilling filling = TableFilling::kNow);
+    /// Of what may stand before the wanted points of each light; of all where these are not known.
+    ShadowTables(const FastScene& scene, InstructionSet isa, int threads,
+                 const std::vector<std::optional<WantedDepths>>& wanted);
 
     /// For fill_tables(); by several threads at a time.
     void take(const TriangleChunk& chunk);
     void take_quadrics(QuadricSpan quadrics);
     void finish();
 
-    /// Whether the item may hide something from light i. The planes of others are not there.
-    bool hides(std::size_t light, Slot slot) const {
-        return slot >= scene_.triangle_end() ||
-               (tables_[light].hides[slot / 8] >> slot % 8 & 1) != 0;
-    }
-
     const FastScene& scene() const { return scene_; }
+    InstructionSet isa() const { return isa_; }
     /// Of light i; empty where it casts no shadow.
     const ShadowTable& table(std::size_t light) const { return tables_[light]; }
-    /// Of light i, by slot; none where it casts no shadow.
-    const ShadowPlanes* planes(std::size_t light) const {
-        return planes_.data() + tables_[light].first_plane;
-    }
     const Quadric& quadric(Slot slot) const { return quadrics_[slot - scene_.triangle_end()]; }
     bool has_rounds() const { return !quadrics_.empty(); }
 
@@ -75,6 +80,12 @@ class ShadowTables {
     std::size_t memory_bytes() const;
 
   private:
+    void make_tables();
+    void list_all(ShadowTable& table, std::size_t light);
+    void list_wanted(ShadowTable& table, std::size_t light, const WantedDepths& wanted);
+    LightItems items() const { return {scene_, quadrics_, quadric_error_}; }
+    void make_planes(ShadowTable& table, std::size_t light, const TriangleChunk& chunk) const;
+    static void forget_outside(ShadowTable& table);
     /// Whether the light is a direction or stands where the scene surely does not reach.
     bool outside_of_all(const LightPoint& light) const;
     Quadric quadric_of(const Shape& shape) const;
@@ -83,7 +94,6 @@ class ShadowTables {
     const FastScene& scene_;
     InstructionSet isa_;
     int threads_;
-    double reach_;  // largest |coordinate| of the scene's box in the local frame
     double touch_;  // bounds SurfacePoint::error, in the local frame
     float dense_;
     float plane_error_;
@@ -91,7 +101,6 @@ class ShadowTables {
     float quadric_error_;
     BigVector<Quadric> quadrics_;
     std::vector<ShadowTable> tables_;
-    BigVector<ShadowPlanes> planes_;
 };
 
 }  // namespace nuvo

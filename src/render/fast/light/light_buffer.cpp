@@ -1,14 +1,14 @@
-#include "fast/shadow/light_buffer.h"
+#include "fast/light/light_buffer.h"
 
 #include <algorithm>
 #include <cmath>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "fast/shadow/light_buffer.cpp"
+#define HWY_TARGET_INCLUDE "fast/light/light_buffer.cpp"
 #include <hwy/foreach_target.h>
 
-#include "fast/shadow/light_cells.h"
-#include "fast/shadow/light_ranges.h"
+#include "fast/light/light_cells.h"
+#include "fast/light/light_ranges.h"
 
 // Items are sorted into cells by counting. The middle of a sample tells how large they are; most
 // then cover few cells of the finest grid.
@@ -21,15 +21,11 @@ alignas(64) constexpr std::int32_t kLaneNumbers[16] = {0, 1, 2,  3,  4,  5,  6, 
 
 class LightBufferMaker {
   public:
-    LightBufferMaker(LightBuffer& out, const LightPoint& light, const LightBuffer::Source& source)
-        : out_(out),
-          source_(source),
-          triangle_end_(source.scene.triangle_end()),
-          end_(source.scene.slot_end()) {
-        if (!light.finite || !(source.reach < 1.5) || end_ == 0) return;
-        if (!plane_.start(light, source, out, extent_)) cube_.start(light, out, extent_);
-        faces_ = out.inside ? 6 : 1;
-        allow(kLeastError);
+    LightBufferMaker(LightBuffer& out, const LightPoint& light, const LightItems& items)
+        : out_(out), items_(items), triangle_end_(items.triangles()), end_(items.size()) {
+        if (!ranges_.start(light, items.scene, out.map, extent_)) return;
+        faces_ = out.map.faces();
+        ranges_.allow(kLeastError, items_.touch, out_.map);
     }
 
     void run() {
@@ -61,17 +57,7 @@ class LightBufferMaker {
     // What points may be off, in the size of the middle item and in general.
     static constexpr double kErrorShare = 0x1p-4;
     static constexpr double kLeastError = 0x1p-20;
-    static constexpr double kMostError = 0x1p-14;
-
-    void allow(double error) {
-        out_.point_error = static_cast<float>(error);
-        // A local coordinate, and a sphere's centre and radius, have a rounding of at most 2 each.
-        const double all = error + source_.touch + 4 * kFloatRoundoff;
-        if (out_.inside)
-            cube_.allow(all, out_);
-        else
-            plane_.allow(all);
-    }
+    static constexpr double kMostError = kMostPointError;
 
     // The cells that an item covers on its grid: at most kCoarser^2 but for the last grid, which
     // has only one.
@@ -104,23 +90,16 @@ class LightBufferMaker {
     /// Calls use(face, ranges, lanes) for the faces on which items [first, first + 16) are met.
     template <typename Use>
     HWY_INLINE void for_each_face(Slot first, Use&& use) {
-        const std::uint32_t there = ((1U << count_from(first)) - 1) & hiding(first);
+        const Slot count = count_from(first);
+        const std::uint32_t there = ((1U << count) - 1) & hiding(first);
         if (there == 0) return;
-        const ItemCorners items = corners(first);
-        if (!out_.inside) {
-            use(0, plane_.of(items), there);
-            return;
-        }
-        cube_.take(items);
-        for (int face = 0; face < 6; ++face) {
-            const LightRanges ranges = cube_.of(face);
-            if ((ranges.lanes & there) != 0) use(face, ranges, ranges.lanes & there);
-        }
+        ranges_.for_each_face(
+            corners_of(items_, count, [&](Slot i) { return items_.slot(first + i); }), there, use);
     }
     // Which of 16 items from `first` on may hide something.
     std::uint32_t hiding(Slot first) const {
-        if (first >= triangle_end_ || source_.hides == nullptr) return ~0U;
-        const std::uint8_t* const at = source_.hides + first / 8;
+        if (first >= triangle_end_ || items_.hides == nullptr) return ~0U;
+        const std::uint8_t* const at = items_.hides + first / 8;
         return (std::uint32_t{at[0]} | std::uint32_t{at[1]} << 8 | std::uint32_t{at[2]} << 16) >>
                first % 8;
     }
@@ -128,45 +107,15 @@ class LightBufferMaker {
     Slot count_from(Slot first) const {
         return std::min<Slot>(16, (first < triangle_end_ ? triangle_end_ : end_) - first);
     }
-    // No item is met outside of the octree's box, which alone is known to lie on one side of the
-    // light's plane; the sphere around an ellipsoid may reach out of it. [numerics: light buffers]
-    HWY_INLINE ItemCorners corners(Slot first) const {
-        const Bounds3T<float>& box = source_.scene.octree().bounds;
-        ItemCorners out;
-        const Slot last = first + count_from(first) - 1;
-        alignas(64) float at[3][3][16];
-        for (Slot i = 0; i < 16; ++i) {
-            const Slot slot = std::min(first + i, last);
-            if (first < triangle_end_) {
-                const LocalTriangle& t = source_.scene.triangles()[slot];
-                for (int corner = 0; corner < 3; ++corner)
-                    for (int axis = 0; axis < 3; ++axis)
-                        at[corner][axis][i] = t.corner[corner][axis];
-            } else {
-                const Quadric& shape = source_.quadrics[slot - triangle_end_];
-                for (int axis = 0; axis < 3; ++axis) {
-                    // Of a radius that is NaN the box is left.
-                    const float low = shape.center[axis] - shape.radius;
-                    const float high = shape.center[axis] + shape.radius;
-                    at[0][axis][i] = low > box.min[axis] ? low : box.min[axis];
-                    at[1][axis][i] = high < box.max[axis] ? high : box.max[axis];
-                }
-            }
-        }
-        out.count = first < triangle_end_ ? 3 : 2;
-        for (int corner = 0; corner < out.count; ++corner)
-            for (int axis = 0; axis < 3; ++axis)
-                out.at[corner][axis] = Floats::load(at[corner][axis]);
-        return out;
-    }
-
     void choose_grids() {
         const double size = sample();
-        for (int i = 0; i < 2; ++i) out_.steps[i] = static_cast<float>(kLightSteps) / extent_[i];
+        for (int i = 0; i < 2; ++i)
+            out_.map.steps[i] = static_cast<float>(kLightSteps) / extent_[i];
+        const double items = std::max<double>(end_, 1);
         const double least =
-            std::sqrt(static_cast<double>(extent_[0]) * extent_[1] * faces_ / (kMostCells * end_));
+            std::sqrt(static_cast<double>(extent_[0]) * extent_[1] * faces_ / (kMostCells * items));
         const double fine =
-            std::sqrt(static_cast<double>(extent_[0]) * extent_[1] * faces_ * kMostItems / end_);
+            std::sqrt(static_cast<double>(extent_[0]) * extent_[1] * faces_ * kMostItems / items);
         double width = std::max({std::min(kMostWide * size, fine), kLeastWide * size, least});
         while (out_.grids.empty() || cells_of(out_.grids.back()) > 1) {
             const bool last = out_.grids.size() + 1 == LightBuffer::kMaxGrids;
@@ -199,7 +148,7 @@ class LightBufferMaker {
                 const Floats larger =
                     max(ranges.high[0] - ranges.low[0], ranges.high[1] - ranges.low[1]);
                 larger.store(size);
-                (out_.inside ? larger * ranges.near : larger).store(length);
+                (out_.map.inside ? larger * ranges.near : larger).store(length);
                 for (int k = 0; k < 2; ++k)
                     ((ranges.high[k] + ranges.low[k]) * Floats(0.5F)).store(center[k]);
                 for (; lanes != 0; lanes &= lanes - 1) {
@@ -212,7 +161,8 @@ class LightBufferMaker {
         }
         for (int k = 0; k < 2; ++k) narrow(k, centers[k]);
         if (sizes.empty()) return extent_[0];
-        allow(std::clamp(quantile(lengths, 0.5) * kErrorShare, kLeastError, kMostError));
+        ranges_.allow(std::clamp(quantile(lengths, 0.5) * kErrorShare, kLeastError, kMostError),
+                      items_.touch, out_.map);
         return quantile(sizes, 0.5);
     }
     void narrow(int k, std::vector<float>& centers) {
@@ -223,7 +173,7 @@ class LightBufferMaker {
         const double high = quantile(centers, 0.98);
         const double width = 1.5 * (high - low);
         if (!(kMuch * width < extent_[k]) || width < kLeastShare * extent_[k]) return;
-        out_.low[k] = static_cast<float>(low - 0.25 * (high - low));
+        out_.map.low[k] = static_cast<float>(low - 0.25 * (high - low));
         extent_[k] = static_cast<float>(width);
     }
     static double quantile(std::vector<float>& v, double share) {
@@ -238,8 +188,8 @@ class LightBufferMaker {
         Ints high[2];
         alignas(64) LightEntry entries[16];
         for (int i = 0; i < 2; ++i) {
-            low[i] = integers_from(step_of(out_, i, ranges.low[i]));
-            high[i] = integers_from(step_of(out_, i, ranges.high[i]));
+            low[i] = integers_from(step_of(out_.map, i, ranges.low[i]));
+            high[i] = integers_from(step_of(out_.map, i, ranges.high[i]));
         }
         const auto pair = [](const Ints(&v)[2]) { return v[0] | shift_left<16>(v[1]); };
         const Ints slots = Ints(static_cast<std::int32_t>(first)) + Ints::load(kLaneNumbers);
@@ -302,11 +252,10 @@ class LightBufferMaker {
     }
 
     LightBuffer& out_;
-    const LightBuffer::Source& source_;
-    Slot triangle_end_;
+    const LightItems& items_;
+    Slot triangle_end_;  // places
     Slot end_;
-    PlaneRanges plane_;
-    CubeRanges cube_;
+    ItemRanges ranges_;
     float extent_[2] = {};  // of u and v
     int faces_ = 0;
     std::uint32_t cells_ = 0;  // of all grids
@@ -314,9 +263,8 @@ class LightBufferMaker {
     std::size_t used_ = 0;
 };
 
-void make_light_buffer(LightBuffer& out, const LightPoint& light,
-                       const LightBuffer::Source& source) {
-    LightBufferMaker(out, light, source).run();
+void make_light_buffer(LightBuffer& out, const LightPoint& light, const LightItems& items) {
+    LightBufferMaker(out, light, items).run();
 }
 
 }  // namespace nuvo::HWY_NAMESPACE
@@ -327,8 +275,8 @@ HWY_AFTER_NAMESPACE();
 
 namespace nuvo {
 
-LightBuffer::LightBuffer(const LightPoint& light, const Source& source, InstructionSet isa) {
-    (NUVO_FOR_ISA(isa, make_light_buffer))(*this, light, source);
+LightBuffer::LightBuffer(const LightPoint& light, const LightItems& items, InstructionSet isa) {
+    (NUVO_FOR_ISA(isa, make_light_buffer))(*this, light, items);
 }
 
 }  // namespace nuvo

@@ -6,18 +6,21 @@
 #define NUVO_RENDER_FAST_LIGHT_CELLS_H_
 #endif
 
-#include "fast/shadow/light_buffer.h"
-#include "fast/shadow/shadow_lanes.h"
+#include "fast/light/light_buffer.h"
 #include "fast/simd/lanes.h"
 
-// Looking up points in a light's grid.
+// Where a light sees points, and the cells of its grids.
 
 HWY_BEFORE_NAMESPACE();
 namespace nuvo::HWY_NAMESPACE {
 
+struct Points {
+    Floats x, y, z;
+};
+
 /// The step of u (i = 0) or v (1): monotonic.
-HWY_INLINE Floats step_of(const LightBuffer& buffer, int i, const Floats& u) {
-    const Floats at = (u - Floats(buffer.low[i])) * Floats(buffer.steps[i]);
+HWY_INLINE Floats step_of(const LightMap& map, int i, const Floats& u) {
+    const Floats at = (u - Floats(map.low[i])) * Floats(map.steps[i]);
     return floor(min(max(at, Floats(0.0F)), Floats(kLightSteps - 1)));
 }
 /// The column or row of a step, of `count`.
@@ -25,7 +28,7 @@ HWY_INLINE Ints cell_of(const Ints& step, int count) { return shift_right<16>(st
 
 /// Where 16 points are looked up.
 struct LightPlaces {
-    HWY_INLINE LightPlaces(const LightBuffer& buffer, const LightPoint& light, const Points& p,
+    HWY_INLINE LightPlaces(const LightMap& map, const LightPoint& light, const Points& p,
                            const Floats& error) {
         const Floats* const at[3] = {&p.x, &p.y, &p.z};
         const Floats weight(static_cast<float>(light.weight));
@@ -33,22 +36,23 @@ struct LightPlaces {
         for (int axis = 0; axis < 3; ++axis)
             w[axis] =
                 neg_mul_add(*at[axis], weight, Floats(static_cast<float>(light.toward[axis])));
-        if (buffer.inside) {
+        Floats stretch(map.stretch);
+        if (map.inside) {
             in_cube(w);
-            stretch = Floats(buffer.stretch) / depth;
-            known = (depth >= Floats(buffer.nearest)).bits();
+            stretch = stretch / depth;
+            known = (depth >= Floats(map.nearest)).bits();
         } else {
-            const int k = buffer.axis;
+            const int k = map.axis;
             const int axes[2] = {(k + 1) % 3, (k + 2) % 3};
             const Floats to_plane = *at[k] / w[k];
             for (int i = 0; i < 2; ++i) u[i] = neg_mul_add(to_plane, w[axes[i]], *at[axes[i]]);
-            depth = *at[k] * Floats(-buffer.sign);
-            stretch = Floats(buffer.stretch);
+            depth = *at[k] * Floats(-map.sign);
             known = 0xffff;
         }
-        for (int i = 0; i < 2; ++i) step[i] = step_of(buffer, i, u[i]);
-        known &= (error <= Floats(kMostError)).bits();
-        good = known & (error <= Floats(buffer.point_error)).bits();
+        for (int i = 0; i < 2; ++i) step[i] = step_of(map, i, u[i]);
+        moved = stretch * error;
+        known &= ((error <= Floats(kMostError)) & (moved <= Floats(map.most_moved))).bits();
+        good = known & (error <= Floats(map.point_error)).bits();
     }
 
     /// The cells of a grid.
@@ -61,7 +65,7 @@ struct LightPlaces {
     Floats u[2];
     Floats step[2];
     Floats depth;
-    Floats stretch;  ///< bounds what u changes by for an error of 1
+    Floats moved;  ///< bounds what u is off by
     Ints face{0};
     std::uint32_t known;  ///< lanes that can be looked up
     std::uint32_t good;   ///< lanes for which one cell of a grid is enough

@@ -9,7 +9,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fast/shadow/light_buffer.h"
+#include "fast/light/light_items.h"
+#include "fast/light/light_map.h"
+#include "fast/light/light_point.h"
 #include "fast/simd/lanes.h"
 #include "nuvo/math/error_bounds.h"
 
@@ -37,19 +39,18 @@ struct LightRanges {
     Floats near;  ///< depth
 };
 
-/// Through the plane of a light outside of the scene. [light_buffer.h]
+/// Through the plane of a light outside of the scene. [light_map.h]
 class PlaneRanges {
   public:
     /// Fills in `out`'s axis, sign, place and size; false where the light is not far outside.
-    bool start(const LightPoint& light, const LightBuffer::Source& source, LightBuffer& out,
-               float (&extent)[2]) {
+    bool start(const LightPoint& light, const FastScene& scene, LightMap& out, float (&extent)[2]) {
         int k = 0;
         for (int axis = 1; axis < 3; ++axis)
             if (std::fabs(light.toward[axis]) > std::fabs(light.toward[k])) k = axis;
         axis_ = k;
         for (int axis = 0; axis < 3; ++axis) toward_[axis] = static_cast<float>(light.toward[axis]);
         weight_ = static_cast<float>(light.weight);
-        const double reach = source.reach;
+        const double reach = scene.reach();
         const double toward = std::fabs(light.toward[k]);
         const double least = toward - light.weight * reach;  // of |W_k|
         if (!(least > kLeastShare * toward)) return false;
@@ -68,7 +69,7 @@ class PlaneRanges {
         out.axis = k;
         out.sign = light.toward[k] > 0 ? 1.0F : -1.0F;
         atoward_light_ = -out.sign;
-        see(source.scene.octree().bounds, light, out, extent);
+        see(scene.octree().bounds, light, out, extent);
         return true;
     }
 
@@ -119,7 +120,7 @@ class PlaneRanges {
         return neg_mul_add(deep, w / wk, p);
     }
     // The part of the plane through which the scene is seen: what lies beyond counts as its border.
-    void see(const Bounds3T<float>& box, const LightPoint& light, LightBuffer& out,
+    void see(const Bounds3T<float>& box, const LightPoint& light, LightMap& out,
              float (&extent)[2]) const {
         for (int i = 0; i < 2; ++i) {
             const int axis = (axis_ + 1 + i) % 3;
@@ -147,10 +148,10 @@ class PlaneRanges {
     float depth_margin_ = 0;
 };
 
-/// Through the six faces of a cube around a light among the items. [light_buffer.h]
+/// Through the six faces of a cube around a light among the items. [light_map.h]
 class CubeRanges {
   public:
-    void start(const LightPoint& light, LightBuffer& out, float (&extent)[2]) {
+    void start(const LightPoint& light, LightMap& out, float (&extent)[2]) {
         for (int axis = 0; axis < 3; ++axis) toward_[axis] = static_cast<float>(light.toward[axis]);
         weight_ = static_cast<float>(light.weight);
         out.inside = true;
@@ -162,7 +163,7 @@ class CubeRanges {
     }
 
     /// `error` bounds that of points on each axis, and the items' own.
-    void allow(double error, LightBuffer& out) {
+    void allow(double error, LightMap& out) {
         // W has three roundings of numbers up to 2.
         error_ = static_cast<float>(weight_ * error + 8 * kFloatRoundoff);
         out.nearest = 2 * kNear * error_;
@@ -242,6 +243,84 @@ class CubeRanges {
     Floats low_[3];
     Floats high_[3];
 };
+
+/// Through whichever the light has.
+class ItemRanges {
+  public:
+    /// Fills in `out`, and how far u and v go; false where nothing can be looked up.
+    bool start(const LightPoint& light, const FastScene& scene, LightMap& out, float (&extent)[2]) {
+        if (!light.finite || !(scene.reach() < kMostReach) || scene.slot_end() == 0) return false;
+        if (!plane_.start(light, scene, out, extent)) cube_.start(light, out, extent);
+        inside_ = out.inside;
+        return true;
+    }
+    /// Points may be off by `error` on each axis; what lies within `touch` of a shadow ray counts
+    /// as met.
+    void allow(double error, double touch, LightMap& out) {
+        out.point_error = static_cast<float>(error);
+        // A local coordinate, and a sphere's centre and radius, have a rounding of at most 2 each.
+        const double all = error + touch + 4 * kFloatRoundoff;
+        if (inside_)
+            cube_.allow(all, out);
+        else
+            plane_.allow(all);
+    }
+
+    /// Calls use(face, ranges, lanes) for the faces on which those of `there` are met.
+    template <typename Use>
+    HWY_INLINE void for_each_face(const ItemCorners& items, std::uint32_t there, Use&& use) {
+        if (!inside_) {
+            use(0, plane_.of(items), there);
+            return;
+        }
+        cube_.take(items);
+        for (int face = 0; face < 6; ++face) {
+            const LightRanges ranges = cube_.of(face);
+            if ((ranges.lanes & there) != 0) use(face, ranges, ranges.lanes & there);
+        }
+    }
+
+  private:
+    static constexpr double kMostReach = 1.5;
+
+    PlaneRanges plane_;
+    CubeRanges cube_;
+    bool inside_ = false;
+};
+
+/// The corners of `count` items of one kind, at most 16, whose slots are slot_at(0) and on; the
+/// last one's again beyond.
+// No item is met outside of the octree's box, which alone is known to lie on one side of the
+// light's plane; the sphere around an ellipsoid may reach out of it. [numerics: light buffers]
+template <typename SlotAt>
+HWY_INLINE ItemCorners corners_of(const LightItems& items, Slot count, const SlotAt& slot_at) {
+    const Bounds3T<float>& box = items.scene.octree().bounds;
+    const Slot triangle_end = items.scene.triangle_end();
+    const bool triangles = slot_at(0) < triangle_end;
+    ItemCorners out;
+    alignas(64) float at[3][3][16];
+    for (Slot i = 0; i < 16; ++i) {
+        const Slot slot = slot_at(std::min(i, count - 1));
+        if (triangles) {
+            const LocalTriangle& t = items.scene.triangles()[slot];
+            for (int corner = 0; corner < 3; ++corner)
+                for (int axis = 0; axis < 3; ++axis) at[corner][axis][i] = t.corner[corner][axis];
+        } else {
+            const Quadric& shape = items.quadrics[slot - triangle_end];
+            for (int axis = 0; axis < 3; ++axis) {
+                // Of a radius that is NaN the box is left.
+                const float low = shape.center[axis] - shape.radius;
+                const float high = shape.center[axis] + shape.radius;
+                at[0][axis][i] = low > box.min[axis] ? low : box.min[axis];
+                at[1][axis][i] = high < box.max[axis] ? high : box.max[axis];
+            }
+        }
+    }
+    out.count = triangles ? 3 : 2;
+    for (int corner = 0; corner < out.count; ++corner)
+        for (int axis = 0; axis < 3; ++axis) out.at[corner][axis] = Floats::load(at[corner][axis]);
+    return out;
+}
 
 }  // namespace nuvo::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <span>
+
+#include "fast/scene/fast_scene.h"
+#include "nuvo/math/big_vector.h"
+
+namespace nuvo {
+
+/// A sphere, or one around an ellipsoid, in the local frame.
+struct Quadric {
+    float center[3];
+    float radius;
+};
+/// Its largest number.
+inline float size_of(const Quadric& quadric) {
+    float size = quadric.radius;
+    for (const float x : quadric.center) size = std::fmax(size, std::fabs(x));
+    return size;
+}
+
+/// What may stand in a light's way: items by their places in a list.
+struct LightItems {
+    const FastScene& scene;
+    const BigVector<Quadric>& quadrics;  ///< by slot - triangle_end
+    double touch;                        ///< what lies within this of a shadow ray may block it
+    /// Ascending; null: all slots, each at its own place.
+    const BigVector<Slot>* slots = nullptr;
+    /// Which triangles may hide something, by place, 8 in a byte, and 2 more bytes; null: all.
+    const std::uint8_t* hides = nullptr;
+
+    Slot size() const { return slots ? static_cast<Slot>(slots->size()) : scene.slot_end(); }
+    Slot slot(Slot place) const { return slots ? (*slots)[place] : place; }
+    /// The places of triangles end here.
+    Slot triangles() const {
+        if (!slots) return scene.triangle_end();
+        return static_cast<Slot>(
+            std::lower_bound(slots->begin(), slots->end(), scene.triangle_end()) - slots->begin());
+    }
+};
+
+}  // namespace nuvo

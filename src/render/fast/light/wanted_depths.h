@@ -1,0 +1,73 @@
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "fast/light/light_map.h"
+#include "fast/light/light_point.h"
+#include "fast/scene/fast_scene.h"
+#include "fast/tile/tile.h"
+#include "nuvo/math/big_vector.h"
+#include "nuvo/render/fast.h"
+
+namespace nuvo {
+
+/// Where a light sees the points of a picture that it may light: by cell of its plane or faces how
+/// deep the deepest of them lies, with a pyramid of coarser cells above. Nothing that lies deeper
+/// than all points of its cells hides any of them.
+class WantedDepths {
+  public:
+    /// None where the light tells no places of points.
+    static std::optional<WantedDepths> of(const FastScene& scene, const LightPoint& light,
+                                          InstructionSet isa);
+
+    const LightPoint& light() const { return light_; }
+    /// Points that it cannot look up are not counted.
+    const LightMap& map() const { return map_; }
+
+    /// Counts points; for several threads at a time.
+    void add(const Tile& tile, const TileMask& wanted);
+    /// Makes the pyramid. After all points.
+    void finish();
+
+    /// Bounds the depths of points between these steps of a face from above.
+    float deepest(int face, const std::int32_t (&low)[2], const std::int32_t (&high)[2]) const {
+        const auto span = static_cast<std::uint32_t>(std::max(high[0] - low[0], high[1] - low[1]));
+        const int level = std::max(0, static_cast<int>(std::bit_width(span)) - step_bits_);
+        const int shift = step_bits_ + level;
+        const int side = cells_a_side_ >> level;
+        const float* const cells =
+            cells_.data() + level_starts_[static_cast<std::size_t>(level)] + face * side * side;
+        float most = -std::numeric_limits<float>::infinity();
+        for (int y = low[1] >> shift; y <= high[1] >> shift; ++y)
+            for (int x = low[0] >> shift; x <= high[0] >> shift; ++x)
+                most = std::max(most, cells[y * side + x]);
+        return most;
+    }
+
+    std::size_t memory_bytes() const { return cells_.size() * sizeof(float); }
+
+    /// The finest cells, for the kernels.
+    struct Cells {
+        float* depth;  ///< [face][v][u]
+        int side;      ///< cells
+        int step_bits;
+    };
+
+  private:
+    WantedDepths(const LightPoint& light, InstructionSet isa) : light_(light), isa_(isa) {}
+
+    LightPoint light_;
+    LightMap map_;
+    InstructionSet isa_;
+    int cells_a_side_ = 0;  // of a face; a power of two
+    int step_bits_ = 0;     // a cell is this many steps wide, as a power of two
+    BigVector<float> cells_;
+    std::vector<std::size_t> level_starts_;  // from fine to coarse
+};
+
+}  // namespace nuvo

@@ -1,0 +1,136 @@
+#include "fast/light/wanted_items.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <random>
+
+#include "fast/simd/dispatch.h"
+#include "nuvo/geometry/predicates.h"
+#include "nuvo/geometry/shape.h"
+#include "property/test_scenes.h"
+
+namespace nuvo {
+namespace {
+
+using testing::uniform;
+using testing::uniform_point;
+
+bool blocks_light(const Scene& scene, const FastScene& fast, Slot slot, const Point3& from,
+                  const Light& light) {
+    StageCounts counts;
+    const bool endless = light.kind == Light::Kind::kDirectional;
+    const ExactRay way =
+        endless ? ExactRay(Ray{from, -light.direction}) : ExactRay::between(from, light.location);
+    const double end = endless ? std::numeric_limits<double>::infinity() : 1;
+    const PrimitiveSource& source = fast.source(slot);
+    const Object& object = scene.objects[source.object];
+    if (const auto* mesh = std::get_if<TriangleMesh>(&object.shape))
+        return nuvo::blocks(way, end, 0, mesh->triangle(source.triangle), counts, Sides::kBoth);
+    if (const auto* sphere = std::get_if<Sphere>(&object.shape))
+        return nuvo::blocks(way, end, 0, *sphere, false, counts, Sides::kBoth);
+    return false;
+}
+
+/// A tile of points in a small part of the scene, each off by up to its error.
+struct WantedTile {
+    WantedTile(std::mt19937_64& random, const FastScene& fast) {
+        const Point3 middle = uniform_point(random, 0.4);
+        for (int lane = 0; lane < kTileLanes; ++lane) {
+            const Point3 local = middle + uniform_point(random, 0.05);
+            const double error = std::exp2(uniform(random, -24, -14));
+            points[lane] = local * (1 / fast.frame().scale) + fast.frame().center;
+            const Point3 off = local + uniform_point(random, 0.9 * error);
+            for (int axis = 0; axis < 3; ++axis)
+                tile.point[axis][lane] = static_cast<float>(off[axis]);
+            tile.point_error[lane] = static_cast<float>(error);
+        }
+        std::fill(std::begin(wanted), std::end(wanted), std::uint16_t{0xffff});
+    }
+
+    Tile tile;
+    TileMask wanted;
+    Point3 points[kTileLanes];
+};
+
+/// Lights around, among and far from the scene.
+std::vector<Light> some_lights(std::mt19937_64& random) {
+    std::vector<Light> lights(8);
+    for (std::size_t i = 0; i < 3; ++i) lights[i].direction = normalized(uniform_point(random, 1));
+    lights[0].direction = {0, 0, -1};
+    for (std::size_t i = 3; i < lights.size(); ++i) {
+        lights[i].kind = Light::Kind::kPoint;
+        lights[i].radius = std::numeric_limits<double>::infinity();
+        lights[i].location = uniform_point(random, i < 6 ? 9 : std::pow(10.0, i - 3));
+    }
+    return lights;
+}
+
+TEST(WantedItems, HoldWhateverBlocksAWantedPoint) {
+    int blocking = 0;
+    int left_out = 0;
+    for (unsigned seed = 1; seed <= 8; ++seed) {
+        std::mt19937_64 random(seed);
+        Scene scene = testing::random_scene(seed, 300);
+        scene.lights = some_lights(random);
+        const Primitives primitives = flatten(scene, LeafContent::kPrimitives);
+        const FastScene fast(scene, primitives, OctreeType::kUniform, 1);
+        const auto tile = std::make_unique<WantedTile>(random, fast);
+        BigVector<Quadric> quadrics;
+        for (Slot slot = fast.triangle_end(); slot < fast.slot_end(); ++slot) {
+            const Bounds3 box = bounds(fast.object(fast.id(slot)).shape);
+            const Point3 center = fast.frame().local(box.center());
+            const double radius = length(box.widths()) * fast.frame().scale;  // and more
+            quadrics.push_back({{static_cast<float>(center.x), static_cast<float>(center.y),
+                                 static_cast<float>(center.z)},
+                                static_cast<float>(radius)});
+        }
+        for (const InstructionSet isa : supported_instruction_sets())
+            for (const Light& light : scene.lights) {
+                const LightPoint place(light, fast.frame());
+                std::optional<WantedDepths> depths = WantedDepths::of(fast, place, isa);
+                ASSERT_TRUE(depths);
+                depths->add(tile->tile, tile->wanted);
+                depths->finish();
+                const LightItems all{fast, quadrics, 0x1p-20};
+                const BigVector<Slot> items = wanted_items(all, *depths, isa, 2);
+                ASSERT_TRUE(std::is_sorted(items.begin(), items.end()));
+                left_out += static_cast<int>(fast.slot_end() - items.size());
+                // Points close to a light are not looked up.
+                const double least = 0x1p-4;
+                for (const Point3& point : tile->points) {
+                    const Vector3 way = place.toward - fast.frame().local(point) * place.weight;
+                    if (max_norm(way) < least) continue;
+                    for (Slot slot = 0; slot < fast.slot_end(); ++slot) {
+                        if (!blocks_light(scene, fast, slot, point, light)) continue;
+                        ++blocking;
+                        ASSERT_TRUE(std::binary_search(items.begin(), items.end(), slot))
+                            << "seed " << seed << ", slot " << slot;
+                    }
+                }
+            }
+    }
+    EXPECT_GT(blocking, 10000);
+    EXPECT_GT(left_out, 1000);
+}
+
+TEST(WantedItems, AreNoneWhereNoPointIsWanted) {
+    Scene scene = testing::random_scene(3, 100);
+    scene.lights.resize(1);
+    const Primitives primitives = flatten(scene, LeafContent::kPrimitives);
+    const FastScene fast(scene, primitives, OctreeType::kUniform, 1);
+    BigVector<Quadric> quadrics;
+    quadrics.resize(fast.slot_end() - fast.triangle_end());
+    std::fill(quadrics.begin(), quadrics.end(), Quadric{{0, 0, 0}, 1});
+    const InstructionSet isa = resolved(InstructionSet::kBest);
+    const LightPoint place(scene.lights[0], fast.frame());
+    std::optional<WantedDepths> depths = WantedDepths::of(fast, place, isa);
+    ASSERT_TRUE(depths);
+    depths->finish();
+    EXPECT_TRUE(wanted_items({fast, quadrics, 0x1p-20}, *depths, isa, 1).empty());
+}
+
+}  // namespace
+}  // namespace nuvo
