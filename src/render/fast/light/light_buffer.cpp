@@ -25,7 +25,7 @@ class LightBufferMaker {
         : out_(out), items_(items), triangle_end_(items.triangles()), end_(items.size()) {
         if (!ranges_.start(light, items.scene, out.map, extent_)) return;
         faces_ = out.map.faces();
-        ranges_.allow(kLeastError, items_.touch, out_.map);
+        ranges_.allow(kLeastError * out_.map.point_size, items_.touch, out_.map);
     }
 
     void run() {
@@ -54,7 +54,7 @@ class LightBufferMaker {
     // Where an entry's list is longer than this on average the octree is faster.
     static constexpr double kLongLists = 4096;
 
-    // What points may be off, in the size of the middle item and in general.
+    // What points may be off, in the size of the middle item, and in that of points.
     static constexpr double kErrorShare = 0x1p-4;
     static constexpr double kLeastError = 0x1p-20;
     static constexpr double kMostError = kMostPointError;
@@ -161,13 +161,15 @@ class LightBufferMaker {
         }
         for (int k = 0; k < 2; ++k) narrow(k, centers[k]);
         if (sizes.empty()) return extent_[0];
-        ranges_.allow(std::clamp(quantile(lengths, 0.5) * kErrorShare, kLeastError, kMostError),
-                      items_.touch, out_.map);
+        const double size = out_.map.point_size;
+        ranges_.allow(
+            std::clamp(quantile(lengths, 0.5) * kErrorShare, kLeastError * size, kMostError * size),
+            items_.touch, out_.map);
         return quantile(sizes, 0.5);
     }
     void narrow(int k, std::vector<float>& centers) {
         constexpr double kMuch = 4;
-        constexpr double kLeastShare = 0x1p-14;
+        constexpr double kLeastShare = 0x1p-30;
         if (centers.empty()) return;
         const double low = quantile(centers, 0.02);
         const double high = quantile(centers, 0.98);

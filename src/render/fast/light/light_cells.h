@@ -51,7 +51,10 @@ struct LightPlaces {
         }
         for (int i = 0; i < 2; ++i) step[i] = step_of(map, i, u[i]);
         moved = stretch * error;
-        known &= ((error <= Floats(kMostError)) & (moved <= Floats(map.most_moved))).bits();
+        const Floats size = max(abs(p.x), max(abs(p.y), abs(p.z)));
+        known &= ((error <= Floats(kMostError * map.point_size)) &
+                  (moved <= Floats(map.most_moved)) & (size <= Floats(map.point_size)))
+                     .bits();
         good = known & (error <= Floats(map.point_error)).bits();
     }
 
@@ -71,7 +74,8 @@ struct LightPlaces {
     std::uint32_t good;   ///< lanes for which one cell of a grid is enough
 
   private:
-    // Worse known points may be met all over a grid, or on several faces.
+    // In units of LightMap::point_size; worse known points may be met all over a grid, or on
+    // several faces.
     static constexpr float kMostError = 0x1p-10F;
 
     HWY_INLINE void in_cube(const Floats (&w)[3]) {

@@ -10,7 +10,7 @@ namespace nuvo {
 /// Places on a light's plane or face count from 0 to kLightSteps - 1 on both axes.
 inline constexpr int kLightSteps = 1 << 16;
 
-/// Bounds LightMap::point_error.
+/// Bounds LightMap::point_error, in units of LightMap::point_size.
 inline constexpr double kMostPointError = 0x1p-14;
 
 /// Where a light sees the points of the scene. What lies beyond the steps counts as their border.
@@ -20,6 +20,7 @@ struct LightMap {
     float sign = 1;              ///< of W_k
     float low[2] = {};           ///< u and v of step 0
     float steps[2] = {};         ///< per unit of u and v
+    float point_size = 0;        ///< points with larger coordinates are not looked up
     float point_error = 0;       ///< points known this well are looked up at one place
     float stretch = 0;           ///< of u and v for an error of 1; inside: of W_k = 1
     float nearest = 0;           ///< inside: points with a lesser W_k are not looked up

@@ -29,6 +29,23 @@ namespace nuvo::HWY_NAMESPACE {
 struct ItemCorners {
     int count;        ///< 3 or 2
     Floats at[3][3];  ///< by corner, axis
+
+    /// Their largest coordinates.
+    HWY_INLINE Floats size() const {
+        Floats most(0.0F);
+        for (int corner = 0; corner < count; ++corner)
+            for (const Floats& x : at[corner]) most = max(most, abs(x));
+        return most;
+    }
+};
+
+/// A bound that grows with an item's coordinates: a + b size.
+struct SizedError {
+    float a = 0;
+    float b = 0;
+    HWY_INLINE Floats of(const Floats& size) const {
+        return mul_add(size, Floats(b), Floats(a)) * Floats(1 + 4 * kFloatRoundoff);
+    }
 };
 
 /// What is met of 16 items, by lane.
@@ -38,6 +55,9 @@ struct LightRanges {
     Floats high[2];
     Floats near;  ///< depth
 };
+
+// A corner, or a sphere's centre, radius and their sum, in units of the largest.
+constexpr double kItemRounding = 4 * kFloatRoundoff;
 
 /// Through the plane of a light outside of the scene. [light_map.h]
 class PlaneRanges {
@@ -59,11 +79,11 @@ class PlaneRanges {
             if (axis != k) other = std::fmax(other, std::fabs(light.toward[axis]));
         // u = P_u - P_k s, s = W_u / W_k. By a change e of P on each axis s changes by at most
         // e weight (1 + |s|) / least, u by e (1 + |s|) and P_k times that. W has two roundings of
-        // numbers up to 2; s, the product and the difference three more.
+        // numbers up to 2, which u takes P_k times; s, the product and the difference three more.
         const double slope = (other + light.weight * reach) / least;
         const double roundings = 4 * kFloatRoundoff / least + 4 * kFloatRoundoff;
         stretch_ = 2 * (1 + slope) * (1 + reach * light.weight / least);
-        rounding_ = 2 * (1 + slope) * reach * roundings;
+        rounding_ = (1 + slope) * roundings;
         out.inside = false;
         out.stretch = static_cast<float>(stretch_);
         out.axis = k;
@@ -76,6 +96,8 @@ class PlaneRanges {
     HWY_INLINE LightRanges of(const ItemCorners& c) const {
         LightRanges out;
         out.lanes = 0xffff;
+        const Floats size = c.size();
+        const Floats margin = margin_.of(size);
         for (int i = 0; i < 2; ++i) {
             const int axis = (axis_ + 1 + i) % 3;
             const Floats first = meets(c.at[0][axis], c.at[0][axis_], axis);
@@ -93,20 +115,22 @@ class PlaneRanges {
                 add(meets(c.at[0][axis], c.at[1][axis_], axis));
                 add(meets(c.at[1][axis], c.at[0][axis_], axis));
             }
-            out.low[i] = low - Floats(margin_);
-            out.high[i] = high + Floats(margin_);
+            out.low[i] = low - margin;
+            out.high[i] = high + margin;
         }
         Floats near =
             min(c.at[0][axis_] * Floats(atoward_light_), c.at[1][axis_] * Floats(atoward_light_));
         if (c.count == 3) near = min(near, c.at[2][axis_] * Floats(atoward_light_));
-        out.near = near - Floats(depth_margin_);
+        out.near = near - depth_margin_.of(size);
         return out;
     }
 
-    /// `error` bounds that of points on each axis, and the items' own.
-    void allow(double error) {
-        margin_ = static_cast<float>(stretch_ * error + rounding_);
-        depth_margin_ = static_cast<float>(2 * error);
+    /// `error` bounds that of points of at most `point_size` on each axis, and how far what may
+    /// block a shadow ray lies from it.
+    void allow(double error, double point_size) {
+        margin_ = {rounded_up(stretch_ * error + rounding_ * point_size),
+                   rounded_up(stretch_ * kItemRounding + rounding_)};
+        depth_margin_ = {rounded_up(2 * error), rounded_up(2 * kItemRounding)};
     }
 
   private:
@@ -143,9 +167,9 @@ class PlaneRanges {
     float weight_ = 0;
     float atoward_light_ = 0;
     double stretch_ = 0;
-    double rounding_ = 0;
-    float margin_ = 0;  // of u and v
-    float depth_margin_ = 0;
+    double rounding_ = 0;  // of u and v in units of a coordinate
+    SizedError margin_;    // of u and v
+    SizedError depth_margin_;
 };
 
 /// Through the six faces of a cube around a light among the items. [light_map.h]
@@ -162,16 +186,24 @@ class CubeRanges {
         }
     }
 
-    /// `error` bounds that of points on each axis, and the items' own.
+    /// `error` as in PlaneRanges.
     void allow(double error, LightMap& out) {
-        // W has three roundings of numbers up to 2.
-        error_ = static_cast<float>(weight_ * error + 8 * kFloatRoundoff);
-        out.nearest = 2 * kNear * error_;
+        const double size = out.point_size;
+        double toward = 0;
+        for (const float x : toward_) toward = std::fmax(toward, std::fabs(x));
+        // W = L - P has three roundings of these, the point's as well as the item's.
+        error_by_size_ = {
+            rounded_up(weight_ * error + 4 * kFloatRoundoff * (2 * toward + weight_ * size)),
+            rounded_up(weight_ * (kItemRounding + 4 * kFloatRoundoff))};
+        out.nearest = rounded_up(
+            2 * kNear *
+            (static_cast<double>(error_by_size_.a) + static_cast<double>(error_by_size_.b) * size));
     }
 
     /// The items that the next calls of of() are about.
     HWY_INLINE void take(const ItemCorners& c) {
         count_ = c.count;
+        error_ = error_by_size_.of(c.size());
         for (int axis = 0; axis < 3; ++axis) {
             for (int i = 0; i < c.count; ++i)
                 toward_light_[axis][i] =
@@ -191,7 +223,7 @@ class CubeRanges {
         const Floats least = upper ? low_[k] : -high_[k];
         const Floats most = upper ? high_[k] : -low_[k];
         // u(Q) is within 1 + 4 error / W_k of the point's, that within 1.
-        const Floats limit = most + Floats(4 * error_);
+        const Floats limit = mul_add(error_, Floats(4.0F), most);
         RayMask met = limit > Floats(0.0F);
         const int axes[2] = {(k + 1) % 3, (k + 2) % 3};
         for (const int axis : axes) met = met & (low_[axis] <= limit) & (high_[axis] >= -limit);
@@ -200,16 +232,16 @@ class CubeRanges {
         if (out.lanes == 0) return out;
         // By a change e of W on each axis u changes by at most 2 e / (W_k - e), for |u| <= 1, and
         // W_k >= least; as much again for what |u| may be above.
-        const RayMask deep = least > Floats(kNear * error_);
+        const RayMask deep = least > error_ * Floats(kNear);
         const Floats inverse_least = Floats(1.0F) / least;
         const Floats margin =
-            mul_add(Floats(8 * error_), inverse_least, Floats(8 * kFloatRoundoff));
+            mul_add(error_ * Floats(8.0F), inverse_least, Floats(8 * kFloatRoundoff));
         for (int i = 0; i < 2; ++i) {
             const auto [low, high] = range(axes[i], k, upper, inverse_least, most);
             out.low[i] = select(deep, low - margin, Floats(-2.0F));
             out.high[i] = select(deep, high + margin, Floats(2.0F));
         }
-        out.near = max(least, Floats(0.0F)) - Floats(2 * error_);
+        out.near = neg_mul_add(error_, Floats(2.0F), max(least, Floats(0.0F)));
         return out;
     }
 
@@ -237,8 +269,9 @@ class CubeRanges {
 
     float toward_[3] = {};
     float weight_ = 0;
-    float error_ = 0;
+    SizedError error_by_size_;  // of W
     int count_ = 0;
+    Floats error_;
     Floats toward_light_[3][3];  // by axis, corner
     Floats low_[3];
     Floats high_[3];
@@ -252,18 +285,19 @@ class ItemRanges {
         if (!light.finite || !(scene.reach() < kMostReach) || scene.slot_end() == 0) return false;
         if (!plane_.start(light, scene, out, extent)) cube_.start(light, out, extent);
         inside_ = out.inside;
+        // Of a wide scene the dense place and what is about it.
+        constexpr double kAbout = 16;
+        out.point_size = rounded_up(std::fmin(scene.reach(), kAbout * scene.frame().dense));
         return true;
     }
     /// Points may be off by `error` on each axis; what lies within `touch` of a shadow ray counts
     /// as met.
     void allow(double error, double touch, LightMap& out) {
         out.point_error = static_cast<float>(error);
-        // A local coordinate, and a sphere's centre and radius, have a rounding of at most 2 each.
-        const double all = error + touch + 4 * kFloatRoundoff;
         if (inside_)
-            cube_.allow(all, out);
+            cube_.allow(error + touch, out);
         else
-            plane_.allow(all);
+            plane_.allow(error + touch, out.point_size);
     }
 
     /// Calls use(face, ranges, lanes) for the faces on which those of `there` are met.

@@ -26,7 +26,7 @@ class WantedRanges {
         float extent[2];
         ranges_.start(wanted.light(), items.scene, map, extent);
         // Points known less well are counted wherever they may be.
-        ranges_.allow(kMostPointError, items.touch, map);
+        ranges_.allow(kMostPointError * map.point_size, items.touch, map);
     }
 
     /// Which of `there` are wanted.

@@ -83,7 +83,7 @@ class ShadowTables {
     void make_tables();
     void list_all(ShadowTable& table, std::size_t light);
     void list_wanted(ShadowTable& table, std::size_t light, const WantedDepths& wanted);
-    LightItems items() const { return {scene_, quadrics_, quadric_error_}; }
+    LightItems items() const { return {scene_, quadrics_, quadric_touch_}; }
     void make_planes(ShadowTable& table, std::size_t light, const TriangleChunk& chunk) const;
     static void forget_outside(ShadowTable& table);
     /// Whether the light is a direction or stands where the scene surely does not reach.
