@@ -59,7 +59,7 @@ TEST(Options, DefaultsAreTheThesis) {
 TEST(Options, AForgottenValueIsAUsageError) {
     for (const Flag& flag : flags()) {
         if (flag.value.empty() || flag.may_stand_alone()) continue;
-        for (const std::string given : {"--" + flag.name, "-" + flag.name})
+        for (const std::string& given : {"--" + flag.name, "-" + flag.name})
             for (const std::string next :
                  {"--quiet", "--nosuch", "--rep=1", "-compare", "-quiet", "-h", "--", "-res=2,2"}) {
                 const std::string message = usage_error({given, next});

@@ -45,7 +45,8 @@ class ShadedPicture {
         const CameraTables tables(fast_, camera_, isa);
         PrimaryJob job{fast_, camera_, tables, fallback_, true, {}};
         const PrimaryStage primary(isa);
-        ShadingStage stage(fast_, camera_, tables, isa, redo_exactly);
+        const ShadingTables shading(fast_, camera_, tables.spheres, resolved(isa));
+        ShadingStage stage(shading, redo_exactly);
         Image image(size_.width, size_.height);
         const auto macro = std::make_unique<MacroTile>();
         const auto quadrics = std::make_unique<MacroQuadrics>();

@@ -85,8 +85,7 @@ struct Frame::Tables {
           two_passes(listing == ShadowListing::kMeasured ? shadows_pay(scene, resolution)
                                                          : listing == ShadowListing::kWanted) {
         camera.emplace(scene, rays, options.isa, options.threads, TableFilling::kLater);
-        surfaces = std::make_shared<ShadingTables>(scene, rays, camera->spheres, options.isa,
-                                                   TableFilling::kLater);
+        surfaces.emplace(scene, rays, camera->spheres, options.isa, TableFilling::kLater);
         if (two_passes) {
             for_each_quadric_part(scene, options.threads,
                                   [&](QuadricSpan some) { camera->take_quadrics(some); });
@@ -99,7 +98,7 @@ struct Frame::Tables {
                 fill_tables(scene, options.threads, all, *camera, *surfaces);
             });
         }
-        shading.emplace(surfaces, options.redo_exactly);
+        shading.emplace(*surfaces, options.redo_exactly);
     }
 
     CameraRays rays;
@@ -108,18 +107,19 @@ struct Frame::Tables {
     std::optional<CameraTables> camera;
     const ShadowTables* shadow = nullptr;
     std::optional<ShadowTables> wanted_shadow;  // of what may stand before wanted points
-    std::shared_ptr<ShadingTables> surfaces;
+    std::optional<ShadingTables> surfaces;
     std::optional<ShadingStage> shading;  // copied by each thread; the copies share its tables
     Hits hits;
 
   private:
     // Whether it takes less time to ask each pixel twice than to make all tables of shadows.
     static bool shadows_pay(const FastScene& scene, Resolution resolution) {
-        constexpr std::size_t kPixels = 16;  // that cost as much as the tables of an item
+        constexpr std::size_t kPixels = 16;     // that cost as much as the tables of an item
+        constexpr std::size_t kMany = 100'000;  // tables of fewer stay near the processor
         const std::vector<Light>& lights = scene.scene().lights;
         const auto pixels = static_cast<std::size_t>(resolution.width) *
                             static_cast<std::size_t>(resolution.height);
-        return scene.slot_end() * kPixels > pixels &&
+        return scene.slot_end() > kMany && scene.slot_end() * kPixels > pixels &&
                std::any_of(lights.begin(), lights.end(),
                            [](const Light& light) { return light.casts_shadow; });
     }

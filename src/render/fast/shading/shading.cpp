@@ -7,14 +7,8 @@
 
 namespace nuvo {
 
-ShadingStage::ShadingStage(const FastScene& scene, const CameraRays& camera,
-                           const CameraTables& tables, InstructionSet isa, bool redo_exactly)
-    : ShadingStage(
-          std::make_shared<const ShadingTables>(scene, camera, tables.spheres, resolved(isa)),
-          redo_exactly) {}
-
-ShadingStage::ShadingStage(std::shared_ptr<const ShadingTables> tables, bool redo_exactly)
-    : tables_(std::move(tables)),
+ShadingStage::ShadingStage(const ShadingTables& tables, bool redo_exactly)
+    : tables_(&tables),
       redo_exactly_(redo_exactly),
       lit_(tables_->scene.scene().lights.size()) {
     pick_surface_kernel(tables_->isa, kernels_);

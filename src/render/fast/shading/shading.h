@@ -59,11 +59,9 @@ void pick_finish_kernel(InstructionSet isa, ShadingKernels& kernels);
 /// For one thread; copies share the tables.
 class ShadingStage {
   public:
-    /// `redo_exactly` false: bytes that are not certain stay as they are.
-    ShadingStage(const FastScene& scene, const CameraRays& camera, const CameraTables& tables,
-                 InstructionSet isa, bool redo_exactly = true);
-    /// With tables that are filled before anything is asked.
-    explicit ShadingStage(std::shared_ptr<const ShadingTables> tables, bool redo_exactly = true);
+    /// With tables that outlive it and are filled before anything is asked. `redo_exactly` false:
+    /// bytes that are not certain stay as they are.
+    explicit ShadingStage(const ShadingTables& tables, bool redo_exactly = true);
 
     const ShadingTables& tables() const { return *tables_; }
 
@@ -86,7 +84,7 @@ class ShadingStage {
     int redo(const Tile& tile, const TileMask& uncertain, const ExactFallback& fallback,
              Image& image);
 
-    std::shared_ptr<const ShadingTables> tables_;
+    const ShadingTables* tables_;
     ShadingKernels kernels_;
     bool redo_exactly_;
     std::vector<LitLanes> lit_;  // by light
