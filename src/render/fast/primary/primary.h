@@ -3,8 +3,8 @@
 #include "fast/camera/camera_tables.h"
 #include "fast/primary/macro_tile.h"
 #include "fast/primary/plane_order.h"
-#include "fast/scene/mailbox.h"
 #include "fast/tile/exact_fallback.h"
+#include "fast/tile/mailbox.h"
 
 // Primary rays: the octree is walked once a macro tile, from near to far; what a leaf holds is
 // tested against tiles and blocks first, then against 16 rays at a time.

@@ -8,9 +8,7 @@
 namespace nuvo {
 
 ShadingStage::ShadingStage(const ShadingTables& tables, bool redo_exactly)
-    : tables_(&tables),
-      redo_exactly_(redo_exactly),
-      lit_(tables_->scene.scene().lights.size()) {
+    : tables_(&tables), redo_exactly_(redo_exactly), lit_(tables_->scene.scene().lights.size()) {
     pick_surface_kernel(tables_->isa, kernels_);
     pick_light_kernels(tables_->isa, kernels_);
     pick_finish_kernel(tables_->isa, kernels_);

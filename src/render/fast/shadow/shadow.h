@@ -5,11 +5,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "fast/scene/mailbox.h"
 #include "fast/shadow/free_pairs.h"
 #include "fast/shadow/shadow_tables.h"
 #include "fast/shadow/walk_planes.h"
 #include "fast/tile/exact_fallback.h"
+#include "fast/tile/mailbox.h"
 #include "fast/tile/tile.h"
 
 // Shadow rays: the items that may hide a point from a light are found in the light's buffer, and

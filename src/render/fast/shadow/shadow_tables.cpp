@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fast/light/shadow_planes.h"
 #include "fast/light/wanted_items.h"
-#include "fast/shadow/shadow_planes.h"
 #include "nuvo/geometry/predicates.h"
 #include "nuvo/math/error_bounds.h"
 #include "nuvo/math/parallel.h"

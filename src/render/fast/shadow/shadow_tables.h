@@ -5,10 +5,10 @@
 
 #include "fast/light/light_buffer.h"
 #include "fast/light/light_point.h"
+#include "fast/light/shadow_geometry.h"
 #include "fast/light/wanted_depths.h"
 #include "fast/scene/fast_scene.h"
 #include "fast/scene/triangle_chunk.h"
-#include "fast/shadow/shadow_geometry.h"
 #include "nuvo/math/big_vector.h"
 #include "nuvo/math/error_bounds.h"
 #include "nuvo/render/fast.h"

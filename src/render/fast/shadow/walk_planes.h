@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "fast/shadow/shadow_planes.h"
+#include "fast/light/shadow_planes.h"
 #include "fast/shadow/shadow_tables.h"
 
 namespace nuvo {

@@ -1,7 +1,9 @@
 #pragma once
 
+#include "fast/light/light_point.h"
+#include "fast/light/shadow_geometry.h"
+#include "fast/scene/fast_scene.h"
 #include "fast/scene/triangle_chunk.h"
-#include "fast/shadow/shadow_tables.h"
 #include "nuvo/render/fast.h"
 
 namespace nuvo {

@@ -1,4 +1,4 @@
-#include "fast/shadow/shadow_planes.h"
+#include "fast/light/shadow_planes.h"
 
 #include <algorithm>
 #include <bit>
@@ -6,7 +6,7 @@
 #include "nuvo/math/error_bounds.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "fast/shadow/shadow_planes.cpp"
+#define HWY_TARGET_INCLUDE "fast/light/shadow_planes.cpp"
 #include <hwy/foreach_target.h>
 
 #include "fast/scene/wide_vectors.h"
