@@ -9,6 +9,7 @@
 #include <cstring>
 #include <fstream>
 #include <limits>
+#include <new>
 #include <system_error>
 
 #include "nuvo/image/npy.h"
@@ -136,6 +137,7 @@ std::vector<Ray> read_rays(const std::filesystem::path& path) {
         text.append(chunk.data(), static_cast<std::size_t>(file.gcount()));
     }
     if (std::filesystem::is_directory(path, ignored)) errno = EISDIR;
+    if (errno == ENOMEM) throw std::bad_alloc();
     if (!file.eof() || errno == EISDIR)
         throw RaysError(path.string() +
                         ": line 1: cannot read: " + std::generic_category().message(errno));

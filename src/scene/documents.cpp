@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
-#include <cstring>
 #include <fstream>
+#include <new>
 #include <system_error>
 
 #include "fields.h"
@@ -80,6 +80,13 @@ const Element& find_scene(const Element& root, Messages& messages) {
     throw Error(path.string() + ": " + reason);
 }
 
+/// For a fault of the system. Memory that is out is no fault of the file's.
+[[noreturn]] void fail_to_read(const fs::path& path, const std::string& what,
+                               const std::error_code& error) {
+    if (error == std::errc::not_enough_memory) throw std::bad_alloc();
+    fail_to_read(path, what + ": " + (error ? error.message() : "unknown reason"));
+}
+
 /// True for a name that stays within a folder: relative, without "..", and no address of the net.
 bool stays_inside(const std::string& url) {
     const fs::path path = url;
@@ -106,6 +113,7 @@ bool is_below(const fs::path& path, const fs::path& folder) {
 const Document& Documents::read_file(const fs::path& path) {
     std::error_code error;
     const fs::path canonical = fs::canonical(path, error);
+    if (error && !is_absence(error)) fail_to_read(path, "cannot be found", error);
     // The text is gone before the scene is built.
     Document& document = parse(read_bytes(path), path.string(), path.parent_path());
     if (!error) {
@@ -128,9 +136,7 @@ std::string Documents::read_bytes(const fs::path& path) {
     if (fs::is_directory(path, ignored)) fail_to_read(path, "is a folder, not a file");
     errno = 0;
     std::ifstream file(path, std::ios::binary);
-    if (!file)
-        fail_to_read(path, std::string("cannot be opened: ") +
-                               (errno != 0 ? std::strerror(errno) : "unknown reason"));
+    if (!file) fail_to_read(path, "cannot be opened", {errno, std::generic_category()});
     const std::size_t left = limits_.file_bytes - bytes_;
     const auto check_size = [&](std::uintmax_t size) {
         if (size > left)
@@ -268,7 +274,7 @@ std::optional<fs::path> Documents::find_inline(const std::string& url, const fs:
     const fs::path path = folder / name;
     std::error_code error;
     const fs::path canonical = fs::canonical(path, error);
-    if (error && !is_absence(error)) fail_to_read(path, "cannot be found: " + error.message());
+    if (error && !is_absence(error)) fail_to_read(path, "cannot be found", error);
     if (!error && !is_below(canonical, home_)) return std::nullopt;  // by a link
     reason = "naming no X3D file that can be read left out";
     const bool named_x3d = path.extension() == ".x3d" || path.extension() == ".x3dz";
@@ -277,7 +283,7 @@ std::optional<fs::path> Documents::find_inline(const std::string& url, const fs:
     if (!std::ifstream(canonical, std::ios::binary)) {
         error = {errno, std::generic_category()};
         if (errno != 0 && is_absence(error)) return std::nullopt;
-        fail_to_read(path, "cannot be opened: " + error.message());
+        fail_to_read(path, "cannot be opened", error);
     }
     return path;
 }

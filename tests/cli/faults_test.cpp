@@ -34,11 +34,30 @@ class Faults : public ProgramTest {
 };
 
 TEST_F(Faults, AnInlineThatTheSystemCannotOpenIsRefused) {
-    for (const int error : {EMFILE, ENFILE, EIO, ENOMEM})
+    for (const int error : {EMFILE, ENFILE, EIO})
         for (const int call : {1, 2}) {  // to see whether it can be opened, and to read it
             break_calls("open:" + std::to_string(call) + ":" + std::to_string(error), "part.x3d");
             expect_refused(render_, 3, {"part.x3d: cannot be opened: ", ::strerror(error)});
         }
+}
+
+// Its name is resolved and it is opened with memory; the scene's folder, too, which tells what lies
+// within it.
+TEST_F(Faults, OutOfMemoryNeverLeavesAnInlineOut) {
+    ASSERT_EQ(run({"scene.x3d", "--describe"}).exit_code, 0);
+    const std::string whole = run({"scene.x3d", "--describe"}).out;
+    int out_of_memory = 0;
+    for (int call = 520; call < 560; ++call) {
+        break_calls("alloc:" + std::to_string(call) + ":12");
+        const Outcome outcome = run({"scene.x3d", "--describe"});
+        if (outcome.exit_code == 0) {
+            EXPECT_EQ(outcome.out, whole) << call << ": " << outcome.err;
+        } else {
+            EXPECT_EQ(outcome.exit_code, 4) << call << ": " << outcome.err;
+            ++out_of_memory;
+        }
+    }
+    EXPECT_GT(out_of_memory, 20);
 }
 
 TEST_F(Faults, AnInlineThatIsNotThereIsLeftOutWithAWarning) {
