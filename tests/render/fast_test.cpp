@@ -117,6 +117,50 @@ TEST(Fast, RandomScenesOfAnyScaleAndPlaceAreRenderedToTheSameBytes) {
     }
 }
 
+/// A rough ground of 2 n^2 triangles, 2 wide, under a sun and a lamp.
+Scene rough_ground(int n) {
+    TriangleMesh mesh;
+    std::mt19937_64 random(1);
+    for (int row = 0; row <= n; ++row)
+        for (int column = 0; column <= n; ++column)
+            mesh.positions.push_back(
+                {2.0 * column / n - 1, uniform(random, 0, 3.0 / n), 2.0 * row / n - 1});
+    const auto place = [n](int row, int column) {
+        return static_cast<std::uint32_t>(row * (n + 1) + column);
+    };
+    for (int row = 0; row < n; ++row)
+        for (int column = 0; column < n; ++column) {
+            const std::uint32_t a = place(row, column);
+            const std::uint32_t b = place(row + 1, column);
+            mesh.triangles.push_back({a, b, b + 1});
+            mesh.triangles.push_back({a, b + 1, a + 1});
+        }
+    Scene scene;
+    scene.materials.emplace_back();
+    Object object;
+    object.shape = std::move(mesh);
+    object.solid = false;
+    scene.objects.push_back(std::move(object));
+    scene.lights.resize(2);
+    scene.lights[0].direction = normalized(Vector3{0.5, -1, 0.3});
+    scene.lights[1].kind = Light::Kind::kPoint;
+    scene.lights[1].location = {0.2, 0.3, 0.1};
+    return scene;
+}
+
+// So many that shadows are listed as what is seen decides: for all of them, twice, and for few.
+TEST(Fast, ManyTrianglesSeenFromAfarAndFromNearbyAreRenderedToTheSameBytes) {
+    Scene scene = rough_ground(230);
+    const Primitives primitives = flatten(scene, LeafContent::kPrimitives);
+    constexpr Resolution kSize{200, 130};
+    FastTracer tracer(scene, primitives, {{}, 2});
+    for (const Point3& eye : {Point3{0, 2.2, 0.1}, Point3{0, 2.2, 0.1}, Point3{0.3, 0.05, 0.2}}) {
+        scene.camera = camera_along(eye, Vector3{} - (eye - Point3{}));
+        EXPECT_EQ(difference(exact_picture(scene, primitives, kSize), tracer.render(kSize)), "")
+            << "eye at height " << eye.y;
+    }
+}
+
 // Tables of shadows are kept from one picture to the next.
 TEST(Fast, LightsAndCamerasThatMoveBetweenPicturesGiveNewShadows) {
     Scene scene = grid_scene();

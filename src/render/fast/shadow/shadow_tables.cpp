@@ -58,11 +58,16 @@ ShadowTables::ShadowTables(const FastScene& scene, InstructionSet isa, int threa
         if (!scene_.scene().lights[light].casts_shadow) continue;
         forget_outside(table);
         if (wanted[light]) list_wanted(table, light, *wanted[light]);
-        if (table.complete) {
-            list_all(table, light);
-            for_each_chunk(scene, threads,
-                           [&](const TriangleChunk& chunk) { make_planes(table, light, chunk); });
-        }
+    }
+    for_each_index(threads, tables_.size(), [&](std::size_t light, int) {
+        if (!tables_[light].complete) fill_buffer(tables_[light], *wanted[light]);
+    });
+    for (std::size_t light = 0; light < tables_.size(); ++light) {
+        ShadowTable& table = tables_[light];
+        if (!table.complete || !scene_.scene().lights[light].casts_shadow) continue;
+        list_all(table, light);
+        for_each_chunk(scene, threads,
+                       [&](const TriangleChunk& chunk) { make_planes(table, light, chunk); });
     }
 }
 
@@ -102,10 +107,16 @@ void ShadowTables::list_wanted(ShadowTable& table, std::size_t light, const Want
     std::fill(table.hides.begin(), table.hides.end(), std::uint8_t{0});
     for_each_chunk(scene_, table.slots, table.triangles, threads_,
                    [&](const TriangleChunk& chunk) { make_planes(table, light, chunk); });
+}
+
+void ShadowTables::fill_buffer(ShadowTable& table, const WantedDepths& wanted) const {
+    LightItems listed = items();
+    listed.slots = &table.slots;
     listed.hides = table.hides.data();
     table.buffer = LightBuffer(table.light, listed, isa_);
     table.buffer.map.most_moved = wanted.map().most_moved;
     if (table.buffer.usable()) return;
+    // Walks of the octree ask for all.
     table.complete = true;
     table.slots = {};
 }

@@ -83,6 +83,7 @@ class ShadowTables {
     void make_tables();
     void list_all(ShadowTable& table, std::size_t light);
     void list_wanted(ShadowTable& table, std::size_t light, const WantedDepths& wanted);
+    void fill_buffer(ShadowTable& table, const WantedDepths& wanted) const;
     LightItems items() const { return {scene_, quadrics_, quadric_touch_}; }
     void make_planes(ShadowTable& table, std::size_t light, const TriangleChunk& chunk) const;
     static void forget_outside(ShadowTable& table);
