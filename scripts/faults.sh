@@ -71,6 +71,8 @@ same() {
     esac
 }
 
+without_time() { sed 's/, read in .*//' "$1"; }
+
 # The command's files, standard output and exit code when nothing fails.
 declare -A outputs
 prepare() {
@@ -122,7 +124,8 @@ judge() {
             complain "$name, $what: exit code $code and $file is missing"
         fi
     done
-    if [ "$code" = 0 ] && [ -z "${outputs[$name]}" ] && ! cmp -s "$work/stdout" "$work/right/$name.stdout"; then
+    if [ "$code" = 0 ] && [ -z "${outputs[$name]}" ] &&
+        ! cmp -s <(without_time "$work/stdout") <(without_time "$work/right/$name.stdout"); then
         complain "$name, $what: exit code 0 and another standard output"
     fi
     if [ -z "$leaves" ] && compgen -G '.nuvo-*' >/dev/null; then
