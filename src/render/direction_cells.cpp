@@ -82,20 +82,26 @@ bool DirectionCells::is_due(Cell& cell, const Search& search) const {
            cell.asked >= 0 && ++cell.asked >= kPatience;
 }
 
+// Into empty parts.
 void DirectionCells::divide(Cell& cell, const Search& search) {
+    if (cell.finer) forget_parts(cell);
     cell.finer = std::make_unique<Grid>();
     targets_.assign(1, {cell.finer.get(), search.window});
 }
 
-void DirectionCells::keep_if_shorter(Cell& cell) {
+void DirectionCells::forget_parts(Cell& cell) {
+    for (const Cell& part : cell.finer->cells) size_ -= part.items.size();
+    cell.finer.reset();
+}
+
+// Whether parts list less than half of the items that were added, on average.
+bool DirectionCells::keep_if_shorter(Cell& cell, std::size_t added) {
     std::size_t entries = 0;
     for (const Cell& part : cell.finer->cells) entries += part.items.size();
-    const std::size_t parts = cell.finer->cells.size();
-    if (2 * entries > parts * cell.items.size()) {
-        size_ -= entries;
-        cell.finer.reset();
-        cell.asked = -1;
-    }
+    if (2 * entries <= cell.finer->cells.size() * added) return true;
+    forget_parts(cell);
+    cell.asked = -1;
+    return false;
 }
 
 // Whether any corner lies on the face's side of the point: differences have their true sign.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -38,9 +39,14 @@ class DirectionCells {
         while (true) {
             Cell& cell = step(search);
             if (!cell.finer && is_due(cell, search)) {
-                divide(cell, search);
-                for (const ItemId item : cell.items) add_again(item);
-                keep_if_shorter(cell);
+                // A sample tells whether it helps.
+                const std::size_t stride = std::max<std::size_t>(1, cell.items.size() / kSample);
+                for (const std::size_t step : {stride, std::size_t{1}}) {
+                    divide(cell, search);
+                    for (std::size_t i = 0; i < cell.items.size(); i += step)
+                        add_again(cell.items[i]);
+                    if (!keep_if_shorter(cell, (cell.items.size() + step - 1) / step)) break;
+                }
             }
             if (!cell.finer) return cell.items;
             search.grid = cell.finer.get();
@@ -48,6 +54,7 @@ class DirectionCells {
     }
 
   private:
+    static constexpr std::size_t kSample = 16;
     static constexpr int kSide = 8;  // cells along an edge of the cube, or of a divided cell
     struct Grid;
     struct Cell {
@@ -84,7 +91,8 @@ class DirectionCells {
     static Cell& step(Search& search);
     bool is_due(Cell& cell, const Search& search) const;
     void divide(Cell& cell, const Search& search);
-    void keep_if_shorter(Cell& cell);
+    void forget_parts(Cell& cell);
+    bool keep_if_shorter(Cell& cell, std::size_t added);
 
     bool reaches(const Window& window, std::span<const Point3> corners) const;
     Marks columns(const Window& window, int i, std::span<const Point3> corners) const;
