@@ -225,13 +225,13 @@ ExitCode compare_command(const Options& options) {
 
 namespace {
 
-std::string answer_bytes(const Scene& scene, const Options& options, std::span<const Ray> rays,
-                         std::span<const RayAnswer> answers) {
+std::string answer_bytes(const LoadedScene& loaded, const Options& options,
+                         std::span<const Ray> rays, std::span<const RayAnswer> answers) {
     const AnswerParts& parts = options.answer_parts;
     std::vector<HitPlace> places;
-    if (parts.point || parts.normal) places = hit_places(scene, rays, answers);
+    if (parts.point || parts.normal) places = hit_places(loaded.scene, rays, answers);
     const bool is_array = options.out && fs::path(*options.out).extension() == ".npy";
-    return is_array ? answers_npy(answers, places, parts) : answers_text(answers, places, parts);
+    return (is_array ? answers_npy : answers_text)(answers, places, loaded.shape_names, parts);
 }
 
 }  // namespace
@@ -258,7 +258,7 @@ ExitCode rays_command(const Options& options) {
 
     meter.begin("writing");
     const StageStopwatch write;
-    const std::string bytes = answer_bytes(loaded.scene, options, rays, answers);
+    const std::string bytes = answer_bytes(loaded, options, rays, answers);
     if (options.out) {
         image::write_file_atomically(*options.out, bytes);
         report.picture = *options.out;

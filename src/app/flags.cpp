@@ -67,8 +67,10 @@ void apply_answers(Options& options, const std::string& value) {
             options.answer_parts.point = true;
         else if (part == "normal")
             options.answer_parts.normal = true;
+        else if (part == "def")
+            options.answer_parts.def = true;
         else
-            throw UsageError("must be point, normal or point,normal");
+            throw UsageError("must be point, normal or def, or several with commas between");
         if (part.size() == text.size()) return;
         text.remove_prefix(part.size() + 1);
     }
@@ -342,8 +344,9 @@ std::vector<Flag> output_flags() {
          "array "
          "of n x 6; answers as an array where --out ends in .npy",
          [](Options& o, const std::string& v) { o.rays = non_empty(v, "a file name"); }},
-        {"answers", "--answers", "point|normal|point,normal", "",
-         "what --rays tells of a hit besides: where it is, and the shape's unit normal there",
+        {"answers", "--answers", "point,normal,def", "",
+         "what --rays tells of a hit besides, some of these: where it is, the shape's unit normal "
+         "there, and its DEF or that of the nearest node around it",
          apply_answers},
         {"study", "--study", "[=FILE]", "",
          "render with each combination of answers worth comparing, --rep times, and print speed "

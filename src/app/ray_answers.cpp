@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstring>
 #include <limits>
+#include <string_view>
 
 #include "nuvo/app/rays.h"
 #include "nuvo/image/npy.h"
@@ -55,6 +57,12 @@ class Buffer {
     std::string text_;
 };
 
+/// Empty for a miss.
+std::string_view name_of(const RayAnswer& answer, std::span<const std::string> names) {
+    return answer.hit ? std::string_view(names[static_cast<std::size_t>(answer.shape)])
+                      : std::string_view();
+}
+
 }  // namespace
 
 std::vector<HitPlace> hit_places(const Scene& scene, std::span<const Ray> rays,
@@ -72,7 +80,7 @@ std::vector<HitPlace> hit_places(const Scene& scene, std::span<const Ray> rays,
 }
 
 std::string answers_text(std::span<const RayAnswer> answers, std::span<const HitPlace> places,
-                         const AnswerParts& parts) {
+                         std::span<const std::string> names, const AnswerParts& parts) {
     constexpr std::size_t kUsualBytes = 32, kUsualVectorBytes = 60;
     Buffer out(answers.size() * (kUsualBytes + (parts.point ? kUsualVectorBytes : 0) +
                                  (parts.normal ? kUsualVectorBytes : 0)));
@@ -90,20 +98,32 @@ std::string answers_text(std::span<const RayAnswer> answers, std::span<const Hit
         }
         if (parts.point) out.vector(places[i].point);
         if (parts.normal) out.vector(places[i].normal);
+        if (parts.def) {
+            const std::string_view name = name_of(answer, names);
+            out.text() += name.empty() ? " -" : " ";
+            for (const char c : name) out.text() += static_cast<unsigned char>(c) <= ' ' ? '_' : c;
+        }
         out.text() += '\n';
     }
     return std::move(out.text());
 }
 
 std::string answers_npy(std::span<const RayAnswer> answers, std::span<const HitPlace> places,
-                        const AnswerParts& parts) {
+                        std::span<const std::string> names, const AnswerParts& parts) {
+    std::size_t name_bytes = parts.def ? 1 : 0;  // NumPy has no text of none
+    if (parts.def)
+        for (const RayAnswer& answer : answers)
+            name_bytes =
+                std::max(name_bytes, std::min(kMaxNameBytes, name_of(answer, names).size()));
     const std::array shape{answers.size()};
     const std::string header = image::npy_header(
         std::string("[('hit', '|b1'), ('shape', '<i8'), ('triangle', '<i8'), ('t', '<f8')") +
             (parts.point ? ", ('point', '<f8', (3,))" : "") +
-            (parts.normal ? ", ('normal', '<f8', (3,))" : "") + "]",
+            (parts.normal ? ", ('normal', '<f8', (3,))" : "") +
+            (parts.def ? ", ('def', '|S" + std::to_string(name_bytes) + "')" : "") + "]",
         shape);
-    const std::size_t record = 1 + 3 * 8 + (parts.point ? 24u : 0u) + (parts.normal ? 24u : 0u);
+    const std::size_t record =
+        1 + 3 * 8 + (parts.point ? 24u : 0u) + (parts.normal ? 24u : 0u) + name_bytes;
     Buffer out(header.size() + answers.size() * record);
     out.text() += header;
     for (std::size_t i = 0; i < answers.size(); ++i) {
@@ -113,6 +133,11 @@ std::string answers_npy(std::span<const RayAnswer> answers, std::span<const HitP
         out.bytes(answers[i].t);
         if (parts.point) out.bytes(places[i].point);
         if (parts.normal) out.bytes(places[i].normal);
+        if (parts.def) {
+            const std::string_view name = name_of(answers[i], names).substr(0, name_bytes);
+            out.text() += name;
+            out.text().append(name_bytes - name.size(), '\0');
+        }
     }
     return std::move(out.text());
 }

@@ -105,8 +105,13 @@ LoadedScene load(const Options& options, Meter& meter) {
     const bool piped = options.file == kStandardStream;
     loaded.path = piped ? fs::path(kStandardStream) : find_scene(options.file);
     loaded.name = piped ? "standard input" : loaded.path.string();
-    const x3d::ReadOptions how{options.limits, options.headlight,  options.viewpoint,
-                               options.strict, options.defaults(), meter.begin("reading")};
+    const x3d::ReadOptions how{options.limits,
+                               options.headlight,
+                               options.viewpoint,
+                               options.strict,
+                               options.defaults(),
+                               meter.begin("reading"),
+                               options.answer_parts.def ? &loaded.shape_names : nullptr};
     const StageStopwatch watch;
     loaded.scene =
         piped ? x3d::read_text(read_standard_input(options.limits.file_bytes, how.progress),

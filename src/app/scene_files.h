@@ -14,6 +14,7 @@ struct LoadedScene {
     std::filesystem::path path;  ///< "-": standard input
     std::string name;            ///< for messages
     Scene scene;
+    std::vector<std::string> shape_names;  ///< if answers want them
     double parse_seconds = 0;
     double parse_wall_seconds = 0;
 };

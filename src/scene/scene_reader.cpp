@@ -22,6 +22,7 @@ Scene SceneReader::read(const Document& document) {
             messages_.warn(light_nodes_[i]->name, "reaching no shape", *light_nodes_[i]);
     }
     add_headlight();
+    if (options_.shape_names != nullptr) options_.shape_names->resize(scene_.shape_count);
     scene_.materials = materials_.take();
     scene_.warnings = messages_.warnings();
     return std::move(scene_);
@@ -86,11 +87,14 @@ void SceneReader::read_child(const Element& child, Group& group) {
     if (kind == NodeKind::kGroup || kind == NodeKind::kTransform)
         if (const std::string_view missing = missing_part(node.name); !missing.empty())
             messages_.warn(node.name, missing, child);
+    const std::string_view around = name_;
+    if (const std::string_view name = node.text("DEF"); !name.empty()) name_ = name;
     try {
         read_node(kind, node, group);
     } catch (const LeftOut& left_out) {
         messages_.warn_left_out(node.name, left_out);
     }
+    name_ = around;
 }
 
 void SceneReader::read_node(NodeKind kind, const Element& node, Group& group) {
@@ -181,6 +185,10 @@ void SceneReader::close_scopes(const Group& group, std::size_t first_object) {
 void SceneReader::read_shape(const Element& node, Group& group) {
     const auto shape_index = static_cast<std::uint32_t>(scene_.shape_count++);
     add(options_.progress, 1);
+    if (options_.shape_names != nullptr) {
+        options_.shape_names->resize(shape_index);  // those before it that are not drawn have none
+        options_.shape_names->emplace_back(name_);
+    }
     const Element* appearance = nullptr;
     const Element* geometry = nullptr;
     for (const Element& child : node.children) {

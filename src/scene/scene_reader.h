@@ -72,6 +72,7 @@ class SceneReader {
     std::string file_;                 // in messages
     std::size_t inline_depth_ = 0;     // above 0 nothing is bound
     bool looking_for_camera_ = false;  // and for nothing else
+    std::string_view name_;            // DEF of the nearest node around that has one
     Scene scene_;
     Repeats repeats_;
     std::vector<const Element*> light_nodes_;  // beside scene_.lights

@@ -124,7 +124,32 @@ TEST(Rays, AnswersAreRecordsForNumPy) {
         put(answers[i].t);
         for (const double x : {places[i].normal.x, places[i].normal.y, places[i].normal.z}) put(x);
     }
-    EXPECT_EQ(answers_npy(answers, places, {false, true}), expected);
+    EXPECT_EQ(answers_npy(answers, places, {}, {false, true}), expected);
+}
+
+TEST(Rays, NamesAreToldAsColumnsOfTextAndOfBytes) {
+    const double none = std::numeric_limits<double>::infinity();
+    const RayAnswer answers[] = {
+        {true, 0, 7, 2}, {false, -1, -1, none}, {true, 1, 0, 3}, {true, 2, 0, 4}};
+    const std::string names[] = {"Roof", "", "old \tbarn"};
+    EXPECT_EQ(answers_text(answers, {}, names, {false, false, true}),
+              "1 0 7 2 Roof\n0 -1 -1 inf -\n1 1 0 3 -\n1 2 0 4 old__barn\n");
+    const std::string array = answers_npy(answers, {}, names, {false, false, true});
+    EXPECT_NE(array.find("('t', '<f8'), ('def', '|S9')]"), std::string::npos) << array;
+    const std::size_t record = 1 + 3 * 8 + 9;
+    const std::string rows = array.substr(array.size() - 4 * record);
+    EXPECT_EQ(rows.substr(record - 9, 9), std::string("Roof\0\0\0\0\0", 9));
+    EXPECT_EQ(rows.substr(2 * record - 9, 9), std::string(9, '\0'));
+    EXPECT_EQ(rows.substr(4 * record - 9, 9), "old \tbarn");
+}
+
+TEST(Rays, AnArrayCutsNamesThatAreTooLong) {
+    const RayAnswer hit[] = {{true, 0, 0, 1}};
+    const std::string names[] = {std::string(100'000, 'x')};
+    const std::string array = answers_npy(hit, {}, names, {false, false, true});
+    EXPECT_NE(array.find("'|S256'"), std::string::npos);
+    EXPECT_LT(array.size(), 1000U);
+    EXPECT_GT(answers_text(hit, {}, names, {false, false, true}).size(), 100'000U);
 }
 
 }  // namespace

@@ -388,6 +388,27 @@ TEST_F(Program, RaysAreToldWhereTheyHitAndOnWhichSide) {
     expect_refused({"a.x3d", "--rays=rays", "--answers=color"}, 2, {"--answers=color", "normal"});
 }
 
+// A Shape's own name, that of what is around it, by USE, beside ones that are hidden or not drawn.
+TEST_F(Program, RaysAreToldTheNameOfWhatTheyHit) {
+    put("a.x3d",
+        "<X3D version='3.0'><Scene><Shape><Sphere/></Shape>"
+        "<Switch whichChoice='-1'><Shape DEF='Hidden'><Sphere/></Shape></Switch>"
+        "<Transform DEF='Yard' translation='10 0 0'><Group><Shape><Text string='none'/></Shape>"
+        "<Shape><Sphere/></Shape></Group><Transform translation='10 0 0'>"
+        "<Shape DEF='the well'><Sphere/></Shape></Transform></Transform>"
+        "<Transform translation='30 0 0'><Shape USE='the well'/></Transform>"
+        "<Transform translation='40 0 0'><Transform USE='Yard'/></Transform></Scene></X3D>");
+    put("rays",
+        "0 0 9 0 0 -1\n10 0 9 0 0 -1\n20 0 9 0 0 -1\n30 0 9 0 0 -1\n50 0 9 0 0 -1\n"
+        "60 0 9 0 0 -1\n5 0 9 0 0 -1\n");
+    for (const char* profile : {"--profile=exact", "--profile=fast"})
+        EXPECT_EQ(run({"a.x3d", "--rays=rays", "--answers=def", profile}).out,
+                  "1 0 0 8 -\n1 3 0 8 Yard\n1 4 0 8 the_well\n1 5 0 8 the_well\n1 7 0 8 Yard\n"
+                  "1 8 0 8 the_well\n0 -1 -1 inf -\n");
+    EXPECT_EQ(run({"a.x3d", "--rays=rays", "--answers=def,point"}).out.substr(0, 16),
+              "1 0 0 8 0 0 1 -\n");
+}
+
 TEST_F(Program, AShapeThatDrawsNothingStillCounts) {
     put("a.x3d",
         "<X3D version='3.0'><Scene><Shape/><Shape DEF='S'><Sphere/></Shape>"

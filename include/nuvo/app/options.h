@@ -34,6 +34,7 @@ struct Pixel {
 struct AnswerParts {
     bool point = false;
     bool normal = false;
+    bool def = false;  ///< the shape's name
 };
 
 /// What the user typed, checked. Paths are as typed.

@@ -37,12 +37,15 @@ std::vector<HitPlace> hit_places(const Scene& scene, std::span<const Ray> rays,
                                  std::span<const RayAnswer> answers);
 
 /// A line a ray: "1 shape triangle t" with t to 17 digits, "0 -1 -1 inf" for a miss; behind it the
-/// point and the normal, where they are wanted. `places`: as many as answers, or none.
+/// point, the normal and the shape's name, where they are wanted. `places`: as many as answers, or
+/// none; `names`: one a Shape, or none. Blanks in a name become _, and no name is -.
 std::string answers_text(std::span<const RayAnswer> answers, std::span<const HitPlace> places = {},
-                         const AnswerParts& parts = {});
+                         std::span<const std::string> names = {}, const AnswerParts& parts = {});
+/// So many bytes of a name at most are told in an array.
+inline constexpr std::size_t kMaxNameBytes = 256;
 /// The same as an array of records for NumPy: hit (bool), shape and triangle (int64), t (float64),
-/// point and normal (3 float64) where they are wanted.
+/// point and normal (3 float64) and def (bytes) where they are wanted; no name is empty.
 std::string answers_npy(std::span<const RayAnswer> answers, std::span<const HitPlace> places = {},
-                        const AnswerParts& parts = {});
+                        std::span<const std::string> names = {}, const AnswerParts& parts = {});
 
 }  // namespace nuvo::app

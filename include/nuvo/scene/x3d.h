@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "nuvo/math/progress.h"
 #include "nuvo/scene/defaults.h"
@@ -50,6 +51,9 @@ struct ReadOptions {
     bool strict = false;
     Defaults defaults = {};
     Progress* progress = nullptr;  ///< in bytes of each file, then in shapes
+    /// Takes for each Shape of the document, in its order, its DEF, or where it has none that of
+    /// the nearest node around it that has one; empty: none has.
+    std::vector<std::string>* shape_names = nullptr;
 };
 
 /// Reads an X3D file (XML encoding, perhaps packed by gzip; root X3D or a bare Scene) into world
