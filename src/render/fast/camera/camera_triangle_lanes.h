@@ -69,9 +69,9 @@ class TriangleMaker {
         const Found found{~known_.bits() & there,
                           (known_ & (constant > Wide(0.0))).bits() & batch.front_only & there};
         if (found.hidden == there) return found;
-        put(0, cross(b, bc) * sign, edge_error, Wide(0.0));
-        put(1, cross(c, ca) * sign, edge_error, Wide(0.0));
-        put(2, cross(a, ab) * sign, edge_error, Wide(0.0));
+        put_edge(0, cross(b, bc) * sign, edge_error);
+        put_edge(1, cross(c, ca) * sign, edge_error);
+        put_edge(2, cross(a, ab) * sign, edge_error);
         put(3, inverse_plane, normal_error * direction * abs(inverse), Wide(2.0) * share);
         static_assert(sizeof(CameraTriangle) == 16 * sizeof(float));
         columns_.write(out->a, count);
@@ -85,6 +85,14 @@ class TriangleMaker {
     HWY_INLINE Wide bound(const Wide3& plane) const {
         return abs(dot(plane, right_)) * Wide(extent_.x) +
                abs(dot(plane, down_)) * Wide(extent_.y) + abs(dot(plane, forward_));
+    }
+    // An edge's function is made about 1 at most in the picture: the three share one bound, which
+    // would else be that of the farthest edge.
+    HWY_INLINE void put_edge(std::size_t i, const Wide3& plane, const Wide& error) {
+        constexpr double kSmallest = 0x1p-500;
+        const Wide size = bound(plane);
+        const Wide factor = select(size > Wide(kSmallest), Wide(1.0) / size, Wide(1.0));
+        put(i, plane * factor, error * factor, Wide(0.0));
     }
     // One function with its bound: `error` is that of the double stage.
     HWY_INLINE void put(std::size_t i, const Wide3& plane, const Wide& error,
