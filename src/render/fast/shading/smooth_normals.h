@@ -254,17 +254,19 @@ class SmoothNormalLanes {
 
     // The normal's direction in these lanes; its length waits for those of other triangles.
     HWY_INLINE void add_smooth(const SmoothTriangle& t) {
+        // The first one fills all lanes, so that none is read unset.
+        const RayMask lanes = smooth_bits_ == 0 ? RayMask::from_bits(0xffff) : lanes_;
         const Floats x = Floats::load(kSteps.right) + Floats(center_x_ - t.x);
         const Floats y = Floats::load(kSteps.down) + Floats(center_y_ - t.y);
         for (int i = 0; i < 3; ++i) {
             const Floats n =
                 mul_add(x, Floats(t.right[i]), mul_add(y, Floats(t.down[i]), Floats(t.at[i])));
-            smooth_[i] = select(lanes_, n, smooth_[i]);
+            smooth_[i] = select(lanes, n, smooth_[i]);
         }
         constexpr float kReach = kBlockSide - 1;
         const float error = t.error + t.error_right * (std::fabs(center_x_ - t.x) + kReach) +
                             t.error_down * (std::fabs(center_y_ - t.y) + kReach);
-        smooth_error_ = select(lanes_, Floats(error), smooth_error_);
+        smooth_error_ = select(lanes, Floats(error), smooth_error_);
         smooth_bits_ |= bits_;
     }
 
