@@ -101,7 +101,7 @@ nuvo_step_seconds() { case $1 in native) echo 1 ;; *) echo 2 ;; esac; }
 
 # Configures and builds a preset: nuvo_build PRESET [target]...
 nuvo_build() {
-    local preset=$1 target options=() run steps minutes plural=
+    local preset=$1 target options=() message steps minutes plural=
     shift
     for target in "$@"; do options+=(--target "$target"); done
     (
@@ -112,11 +112,15 @@ nuvo_build() {
             rm -rf "build/$preset"
         fi
         nuvo_quietly cmake --preset "$preset" || exit 1
-        steps=$(ninja -C "build/$preset" -n "$@" 2>/dev/null | grep -c '^\[') || steps=0
-        run=(nuvo_quietly)
-        minutes=$((steps * $(nuvo_step_seconds "$preset") / $(nproc) / 60 + 1))
-        [ $minutes -eq 1 ] || plural=s
-        [ "$steps" -eq 0 ] || run=(nuvo_watch_quietly "Building, about $minutes minute$plural")
-        "${run[@]}" cmake --build --preset "$preset" "${options[@]}"
+        # Only of a new tree is it known how much there is to do: a dry run stops where files are
+        # looked for again.
+        message=Building
+        if [ ! -f "build/$preset/.ninja_log" ]; then
+            steps=$(ninja -C "build/$preset" -t commands "$@" 2>/dev/null | wc -l) || steps=0
+            minutes=$((steps * $(nuvo_step_seconds "$preset") / $(nproc) / 60 + 1))
+            [ $minutes -eq 1 ] || plural=s
+            message="Building, about $minutes minute$plural"
+        fi
+        nuvo_watch_quietly "$message" cmake --build --preset "$preset" "${options[@]}"
     )
 }
