@@ -256,7 +256,7 @@ HWY_INLINE void walk_frustum(const CompactOctree& octree, const Frustum& frustum
         if (node.is_leaf()) {
             const std::uint32_t* const first = items + node.first_item();
             hwy::Prefetch(first);
-            hwy::Prefetch(first + node.item_count() - 1);
+            if (node.item_count() != 0) hwy::Prefetch(first + node.item_count() - 1);
             const CompactNode*& place = late[next_late++ % kLate];
             if (place != nullptr) leaf(items + place->first_item(), place->item_count());
             place = &node;

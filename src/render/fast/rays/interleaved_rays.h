@@ -137,10 +137,10 @@ class InterleavedRays {
         Floats last(state.best);
         for (int axis = 0; axis < 3; ++axis) {
             const Floats inverse(ray.inverse[axis][lane]);
-            first = max(mul_add(Floats::load(node.low[0] + faces.near[axis]), inverse,
+            first = max(mul_add(Floats::load(node.face + faces.near[axis]), inverse,
                                 Floats(ray.near_add[axis][lane])),
                         first);
-            last = min(mul_add(Floats::load(node.low[0] + faces.far[axis]), inverse,
+            last = min(mul_add(Floats::load(node.face + faces.far[axis]), inverse,
                                Floats(ray.far_add[axis][lane])),
                        last);
         }

@@ -25,7 +25,7 @@ struct RayCandidate {
     bool sure;  ///< the ray meets it, in front of the origin
 };
 
-/// Where the faces that a ray meets first and last are, in floats from WideNode::low, by axis.
+/// Where the faces that a ray meets first and last are, in WideNode::face, by axis.
 struct FacesOnRay {
     std::uint32_t near[3];
     std::uint32_t far[3];

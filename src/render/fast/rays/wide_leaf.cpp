@@ -62,6 +62,7 @@ void put_floats(std::span<const float> values, std::vector<std::uint32_t>& words
 
 void put_corners(const Grid& grid, std::span<const Triangle> triangles,
                  std::vector<std::uint32_t>& words) {
+    if (triangles.empty()) return;
     std::vector<std::uint16_t> numbers;
     const double unit = grid.unit();
     for (const auto corner : {&Triangle::a, &Triangle::b, &Triangle::c})

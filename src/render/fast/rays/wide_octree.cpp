@@ -283,8 +283,9 @@ class WideBuilder {
             const Bounds3T<float> box =
                 lane < voxels.size() ? voxels_[voxels[lane].place].box : Bounds3T<float>{};
             for (int axis = 0; axis < 3; ++axis) {
-                node.low[axis][lane] = box.empty() ? kInfinity : box.min[axis];
-                node.high[axis][lane] = box.empty() ? -kInfinity : box.max[axis];
+                node.face[axis * kWideLanes + lane] = box.empty() ? kInfinity : box.min[axis];
+                node.face[(axis + 3) * kWideLanes + lane] =
+                    box.empty() ? -kInfinity : box.max[axis];
             }
         }
     }

@@ -18,8 +18,7 @@ inline constexpr std::size_t kWideLanes = 16;
 
 /// Voxels side by side; behind the last one boxes that no ray meets (low +inf, high -inf).
 struct alignas(64) WideNode {
-    float low[3][kWideLanes];
-    float high[3][kWideLanes];
+    float face[6 * kWideLanes];       ///< low x of all, low y, low z, high x, high y, high z
     std::uint32_t child[kWideLanes];  ///< index of a node; with WideOctree::kLeaf: place of a leaf
     /// The lanes from near to far for rays whose direction's sign bits are 1 x + 2 y + 4 z: number
     /// i stands in bits 4 (i / 2) to 4 (i / 2) + 3 of word i % 2. What separates two voxels is a
