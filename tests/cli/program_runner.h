@@ -11,6 +11,7 @@
 #include <fstream>
 #include <iterator>
 #include <set>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -67,6 +68,7 @@ class ProgramTest : public testing::Test {
         const std::string out_path = out.empty() ? (base_ / "stdout").string() : out;
         const std::string err_path = (base_ / "stderr").string();
         const pid_t child = ::fork();
+        if (child < 0) throw std::runtime_error("no process");  // kill(-1) would end all others
         if (child != 0) return child;
         constexpr int kFlags = O_WRONLY | O_CREAT | O_TRUNC;
         const int out_descriptor = ::open(out_path.c_str(), kFlags, 0600);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <stdexcept>
 #include <string>
 
 #include "cli/program_runner.h"
@@ -18,11 +19,20 @@ constexpr auto kPatience = std::chrono::seconds(60);
 
 class ProgressLine : public ProgramTest {
   protected:
+    void SetUp() override {
+        ProgramTest::SetUp();
+        int terminal = -1;
+        if (::openpty(&screen_, &terminal, nullptr, nullptr, nullptr) != 0)
+            GTEST_SKIP() << "the system has no pseudo-terminals (/dev/pts)";
+        ::close(terminal);
+        ::close(screen_);
+    }
+
     /// Starts the program with standard error on a terminal, and standard output as well if asked.
     void start_on_terminal(const std::vector<std::string>& arguments, bool with_output = false) {
         int terminal = -1;
-        ASSERT_EQ(::openpty(&screen_, &terminal, nullptr, nullptr, nullptr), 0);
-        ASSERT_EQ(::pipe(input_), 0);
+        if (::openpty(&screen_, &terminal, nullptr, nullptr, nullptr) != 0 || ::pipe(input_) != 0)
+            throw std::runtime_error("no terminal or no pipe");
         std::vector<std::string> words = arguments;
         words.insert(words.begin(), NUVO_PROGRAM);
         std::vector<char*> pointers;
@@ -30,6 +40,7 @@ class ProgressLine : public ProgramTest {
         pointers.push_back(nullptr);
         const std::string out_path = (base_ / "stdout").string();
         child_ = ::fork();
+        if (child_ < 0) throw std::runtime_error("no process");  // kill(-1) would end all others
         if (child_ != 0) {
             ::close(terminal);
             ::close(input_[0]);
