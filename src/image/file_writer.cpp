@@ -14,6 +14,8 @@
 #include <system_error>
 #include <utility>
 
+#include "nuvo/math/signals_blocked.h"
+
 namespace nuvo::image {
 namespace {
 
@@ -22,22 +24,6 @@ namespace fs = std::filesystem;
 // The name a signal handler has to remove: plain bytes, since a handler may not allocate.
 char pending_name[PATH_MAX];
 volatile std::sig_atomic_t is_pending = 0;
-
-/// While it lives no signal is handled: a temporary and pending_name change as one.
-class SignalsHeld {
-  public:
-    SignalsHeld() {
-        sigset_t all;
-        ::sigfillset(&all);
-        ::pthread_sigmask(SIG_SETMASK, &all, &before_);
-    }
-    ~SignalsHeld() { ::pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
-    SignalsHeld(const SignalsHeld&) = delete;
-    SignalsHeld& operator=(const SignalsHeld&) = delete;
-
-  private:
-    sigset_t before_;
-};
 
 void set_pending(const fs::path& name) {
     const std::string& text = name.native();
@@ -147,7 +133,7 @@ void FileWriter::open_temporary() {
         remove_abandoned(temporary_name(target_, number));
     for (int number = 0; number < kTemporaries && descriptor_ < 0; ++number) {
         temporary_ = temporary_name(target_, number);
-        const SignalsHeld held;
+        const SignalsBlocked held;
         descriptor_ = create_locked(temporary_);
         if (descriptor_ >= 0)
             set_pending(temporary_);  // from here on nothing may throw but by fail()
@@ -182,7 +168,7 @@ void FileWriter::commit() {
     const int closed = ::close(std::exchange(descriptor_, lock));
     if (closed != 0) fail(errno);
     if (temporary_.empty()) return;
-    const SignalsHeld held;
+    const SignalsBlocked held;
     if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(errno);
     is_pending = 0;
     temporary_.clear();
@@ -190,7 +176,7 @@ void FileWriter::commit() {
 }
 
 void FileWriter::discard() noexcept {
-    const SignalsHeld held;
+    const SignalsBlocked held;
     if (!temporary_.empty()) {
         ::unlink(temporary_.c_str());
         is_pending = 0;

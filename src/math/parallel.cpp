@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <csignal>
 #include <exception>
 #include <limits>
 #include <memory>
@@ -10,6 +9,8 @@
 #include <system_error>
 #include <thread>
 #include <vector>
+
+#include "nuvo/math/signals_blocked.h"
 
 #if defined(__linux__)
 #include <sched.h>
@@ -74,23 +75,6 @@ class Processor {
     static Processor here() { return {}; }
     void leave() const {}
 #endif
-};
-
-/// While it lives, threads that the caller starts are born with all signals blocked: handlers run
-/// on the main thread, which knows when to hold them.
-class SignalsBlocked {
-  public:
-    SignalsBlocked() {
-        sigset_t all;
-        ::sigfillset(&all);
-        ::pthread_sigmask(SIG_SETMASK, &all, &before_);
-    }
-    ~SignalsBlocked() { ::pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
-    SignalsBlocked(const SignalsBlocked&) = delete;
-    SignalsBlocked& operator=(const SignalsBlocked&) = delete;
-
-  private:
-    sigset_t before_;
 };
 
 /// A thread that runs loops for others.
@@ -162,7 +146,7 @@ class Team {
         if (!lock) return loop.run(0);  // a loop within a loop: all threads are at work
         try {
             const std::size_t wanted = std::min(static_cast<std::size_t>(others), most_);
-            const SignalsBlocked blocked;
+            const SignalsBlocked blocked;  // handlers run on the main thread, which may hold them
             while (helpers_.size() < wanted) helpers_.push_back(std::make_unique<Helper>());
         } catch (const std::system_error&) {
             // The system has no more threads. Half of those that there are do the work, and leave

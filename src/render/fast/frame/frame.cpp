@@ -117,9 +117,7 @@ struct Frame::Tables {
         constexpr std::size_t kPixels = 16;     // that cost as much as the tables of an item
         constexpr std::size_t kMany = 100'000;  // tables of fewer stay near the processor
         const std::vector<Light>& lights = scene.scene().lights;
-        const auto pixels = static_cast<std::size_t>(resolution.width) *
-                            static_cast<std::size_t>(resolution.height);
-        return scene.slot_end() > kMany && scene.slot_end() * kPixels > pixels &&
+        return scene.slot_end() > kMany && scene.slot_end() * kPixels > pixel_count(resolution) &&
                std::any_of(lights.begin(), lights.end(),
                            [](const Light& light) { return light.casts_shadow; });
     }

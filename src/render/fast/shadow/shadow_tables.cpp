@@ -78,7 +78,6 @@ void ShadowTables::make_tables() {
              kFloatUnderflow;
     plane_error_ = rounded_up(2 * touch_ + kFloatUnderflow);
     quadric_touch_ = rounded_up(kTouch * touch_ + kFloatUnderflow);
-    quadric_error_ = rounded_up(kQuadricError * scene_.reach() + quadric_touch_);
     quadrics_.resize(scene_.slot_end() - scene_.triangle_end());
     for (const Light& light : scene_.scene().lights) {
         ShadowTable& table = tables_.emplace_back(LightPoint(light, scene_.frame()));
@@ -181,7 +180,9 @@ bool ShadowTables::outside_of_all(const LightPoint& light) const {
     if (light.weight == 0) return true;
     if (scene_.sphere_end() != scene_.slot_end()) return false;  // what is around them is not in it
     const Bounds3T<float>& box = scene_.octree().bounds;
-    const double margin = 2 * quadric_error_ + 8 * kFloatRoundoff * scene_.reach();  // as in side()
+    // As in side(), where no quadric is larger than the scene reaches.
+    const double error = rounded_up(kQuadricError * scene_.reach() + quadric_touch_);
+    const double margin = 2 * error + 8 * kFloatRoundoff * scene_.reach();
     for (int axis = 0; axis < 3; ++axis)
         if (light.toward[axis] > (box.max[axis] + margin) * light.weight ||
             light.toward[axis] < (box.min[axis] - margin) * light.weight)

@@ -73,9 +73,6 @@ class ShadowTables {
     float dense() const { return dense_; }
     /// Within this of a quadric the exact test may count it as touched.
     float quadric_touch() const { return quadric_touch_; }
-    /// Bounds how far a float segment from point to light lies from the true one within the scene,
-    /// but for twice P's own error; with that margin.
-    float quadric_error() const { return quadric_error_; }
 
     std::size_t memory_bytes() const;
 
@@ -99,7 +96,6 @@ class ShadowTables {
     float dense_;
     float plane_error_;
     float quadric_touch_;
-    float quadric_error_;
     BigVector<Quadric> quadrics_;
     std::vector<ShadowTable> tables_;
 };
