@@ -16,6 +16,9 @@ namespace nuvo::HWY_NAMESPACE {
 
 struct Points {
     Floats x, y, z;
+
+    /// The largest coordinates.
+    HWY_INLINE Floats size() const { return max(max(abs(x), abs(y)), abs(z)); }
 };
 
 /// The step of u (i = 0) or v (1): monotonic.
@@ -51,9 +54,8 @@ struct LightPlaces {
         }
         for (int i = 0; i < 2; ++i) step[i] = step_of(map, i, u[i]);
         moved = stretch * error;
-        const Floats size = max(abs(p.x), max(abs(p.y), abs(p.z)));
         known &= ((error <= Floats(kMostError * map.point_size)) &
-                  (moved <= Floats(map.most_moved)) & (size <= Floats(map.point_size)))
+                  (moved <= Floats(map.most_moved)) & (p.size() <= Floats(map.point_size)))
                      .bits();
         good = known & (error <= Floats(map.point_error)).bits();
     }

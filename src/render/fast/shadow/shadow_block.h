@@ -42,8 +42,7 @@ class ShadowBlock {
         points_ = {Floats::load(tile.point[0] + first_), Floats::load(tile.point[1] + first_),
                    Floats::load(tile.point[2] + first_)};
         error_ = Floats::load(tile.point_error + first_);
-        const Floats size =
-            max(max(abs(points_.x), abs(points_.y)), max(abs(points_.z), Floats(tables.dense())));
+        const Floats size = max(points_.size(), Floats(tables.dense()));
         plane_error_ = mul_add(size, Floats(kPlaneError), error_ + Floats(tables.plane_error())) *
                        Floats(kRounded);
         if (!tables.has_rounds()) return;
