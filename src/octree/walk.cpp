@@ -11,36 +11,43 @@ double path_error_bound(const Bounds3& root) {
 
 namespace detail {
 
-// Halfway between the exponents of the largest distance and of the root, so that the largest t does
-// not overflow and the root's are not subnormal.
-int scale_direction(const Bounds3& root, const Point3& origin, Vector3& direction) {
-    const double size = size_of(root);
-    const int wanted = (std::ilogb(std::fmax(size, kUnderflow)) +
-                        std::ilogb(std::fmax(std::fmax(size, max_norm(origin)), kUnderflow))) /
-                       2;
+int scale_direction(const Bounds3& root, Vector3& direction) {
+    const int wanted = std::ilogb(std::fmax(size_of(root), kUnderflow));
     const int shift = std::clamp(wanted, -500, 500) - std::ilogb(max_norm(direction));
     for (int axis = 0; axis < 3; ++axis) direction[axis] = std::ldexp(direction[axis], shift);
     return shift;
 }
 
-bool approach(const Ray& ray, const Bounds3& root, Point3& origin, double& base) {
-    const ExactVector direction(ray.direction);
-    ExactVector point(ray.origin);
-    origin = ray.origin;
-    base = 0;
-    // A step leaves 8 roundings of its length to go, so that few are needed; the ray may also pass
-    // the root beside, and then nothing brings it near.
-    constexpr int kEnoughSteps = 64;
-    for (int i = 0; i < kEnoughSteps && is_far(origin, root); ++i) {
-        const std::optional<Entry> entry = slab_entry({origin, ray.direction}, root);
-        if (!entry) return false;
-        const double step = entry->before();
-        if (!(step > 0)) break;
-        point = point + direction * Exact(step);
-        base += step;
-        origin = {point.x.approximate().rounded(), point.y.approximate().rounded(),
-                  point.z.approximate().rounded()};
+bool enter_exactly(const Ray& ray, const Bounds3& root, Point3& entry, double& t) {
+    const ExactVector o(ray.origin);
+    const ExactVector d(ray.direction);
+    // The last near face to be met: at t = way / speed, with speed > 0.
+    int axis = -1;
+    Exact way;
+    Exact speed;
+    for (int k = 0; k < 3; ++k) {
+        if (ray.direction[k] == 0) continue;
+        const bool up = ray.direction[k] > 0;
+        const Exact to_face = up ? Exact(root.min[k]) - o[k] : o[k] - Exact(root.max[k]);
+        if (axis >= 0 && compare(to_face * speed, way * abs(d[k])) <= 0) continue;
+        axis = k;
+        way = to_face;
+        speed = abs(d[k]);
     }
+    if (axis < 0 || way.sign() < 0) return false;
+    for (int k = 0; k < 3; ++k) {
+        const Exact at = o[k] * speed + d[k] * way;  // the entry's coordinate times speed
+        if (compare(at, Exact(root.min[k]) * speed) < 0 ||
+            compare(at, Exact(root.max[k]) * speed) > 0)
+            return false;
+        entry[k] = std::clamp((at.approximate() / speed.approximate()).rounded(), root.min[k],
+                              root.max[k]);
+    }
+    entry[axis] = ray.direction[axis] > 0 ? root.min[axis] : root.max[axis];
+    const double rounded = (way.approximate() / speed.approximate()).rounded();
+    t = std::fmax(
+        0, std::fmin(rounded, std::numeric_limits<double>::max() / 2) * (1 - 8 * kUnitRoundoff) -
+               kUnderflow);
     return true;
 }
 

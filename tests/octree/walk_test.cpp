@@ -2,12 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include <boost/multiprecision/cpp_int.hpp>
 #include <random>
+#include <set>
 
 #include "nuvo/octree/build.h"
 
 namespace nuvo {
 namespace {
+
+using Rational = boost::multiprecision::cpp_rational;
 
 std::vector<Bounds3> random_boxes(unsigned seed, double scale) {
     std::mt19937_64 random(seed);
@@ -146,6 +150,76 @@ TEST(ExactWalk, GoesTheSameWayAtEveryScale) {
             }
         }
     }
+}
+
+// A ray of any length from any distance towards a point of the scene's box.
+Ray ray_of_any_size(std::mt19937_64& random, double scale) {
+    std::uniform_real_distribution<double> place(-5, 5);
+    std::uniform_int_distribution<int> exponent(-1060, 1000);
+    Ray ray;
+    const int longest = exponent(random);
+    for (int k = 0; k < 3; ++k) {
+        ray.direction[k] = std::ldexp(place(random), std::min(longest, exponent(random)));
+        if (ray.direction[k] == 0) ray.direction[k] = kUnderflow;
+    }
+    const double back = std::ldexp(1.0, exponent(random) / 2);
+    for (int k = 0; k < 3; ++k) {
+        ray.origin[k] = place(random) * scale - back * ray.direction[k];
+        if (!std::isfinite(ray.origin[k])) ray.origin[k] = place(random) * scale;
+    }
+    return ray;
+}
+
+// By the box' own slabs in rational arithmetic, where it is smaller by `margin` all around.
+bool surely_meets(const Ray& ray, const Bounds3& box, double margin) {
+    Rational near = 0;
+    std::optional<Rational> far;
+    for (int axis = 0; axis < 3; ++axis) {
+        Rational a = (Rational(box.min[axis]) + Rational(margin) - Rational(ray.origin[axis])) /
+                     Rational(ray.direction[axis]);
+        Rational b = (Rational(box.max[axis]) - Rational(margin) - Rational(ray.origin[axis])) /
+                     Rational(ray.direction[axis]);
+        if (ray.direction[axis] < 0) std::swap(a, b);
+        if (a > near) near = a;
+        if (!far || b < *far) far = b;
+    }
+    return near < *far;
+}
+
+void add_surely_met(const Octree& octree, NodeIndex index, const Ray& ray,
+                    std::set<Label>& leaves) {
+    const Node& node = octree.nodes()[index];
+    const double margin = path_error_bound(octree.root().voxel.bounds);
+    if (!surely_meets(ray, node.voxel.bounds, margin)) return;
+    if (node.is_leaf()) {
+        leaves.insert(node.label);
+        return;
+    }
+    for (int digit = 1; digit <= 8; ++digit) add_surely_met(octree, node.child(digit), ray, leaves);
+}
+
+TEST(ExactWalk, MissesNoLeafAtAnySizeOfSceneAndRay) {
+    const unsigned seed = std::random_device{}();
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::mt19937_64 random(seed);
+    std::size_t all = 0;
+    for (const int exponent : {0, 300, -300, 900, -570, -900, -1000, 1015, 1020}) {
+        const double scale = std::ldexp(1.0, exponent);
+        const Octree octree = tree_of(scale);
+        for (int i = 0; i < 40; ++i) {
+            const Ray ray = ray_of_any_size(random, scale);
+            std::set<Label> visited;
+            for (const Visit& visit : walk(octree, ray)) visited.insert(visit.leaf);
+            std::set<Label> expected;
+            add_surely_met(octree, 0, ray, expected);
+            all += expected.size();
+            EXPECT_TRUE(std::ranges::includes(visited, expected))
+                << std::hexfloat << scale << ": " << ray.origin.x << ' ' << ray.origin.y << ' '
+                << ray.origin.z << ", " << ray.direction.x << ' ' << ray.direction.y << ' '
+                << ray.direction.z;
+        }
+    }
+    EXPECT_GT(all, 100U);
 }
 
 }  // namespace

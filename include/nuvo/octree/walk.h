@@ -73,13 +73,13 @@ inline bool is_ordinary(double size) { return size > 0x1p-400 && size < 0x1p400;
 inline bool is_ordinary(const Ray& ray) {
     return is_ordinary(max_norm(ray.direction)) && max_norm(ray.origin) < 0x1p400;
 }
-/// Scales `direction` by a power of two so that the same holds for a ray of any size; returns the
-/// exponent.
-int scale_direction(const Bounds3& root, const Point3& origin, Vector3& direction);
+/// Scales a direction of any size by a power of two so that the same holds of it inside the root;
+/// returns the exponent.
+int scale_direction(const Bounds3& root, Vector3& direction);
 
-/// For an origin so far away that one step to the root ends far from it: the ray's point before the
-/// root, found step by step in exact arithmetic, and its t. False when the ray passes the root.
-bool approach(const Ray& ray, const Bounds3& root, Point3& origin, double& base);
+/// For a ray from outside of the root and from any distance: decides in exact arithmetic whether it
+/// meets the root, rounds the point where it enters, and bounds that point's t from below.
+bool enter_exactly(const Ray& ray, const Bounds3& root, Point3& entry, double& t);
 
 }  // namespace detail
 
@@ -99,9 +99,9 @@ class ExactWalk {
     void operator()(const Ray& ray, double t_end, Visit&& visit) {
         direction_ = ray.direction;
         shift_ = 0;
-        if (!(ordinary_size_ && detail::is_ordinary(ray)))
-            shift_ = detail::scale_direction(nodes_[0].voxel.bounds, ray.origin, direction_);
-        if (!enter({ray.origin, direction_})) return;
+        const bool ordinary = ordinary_size_ && detail::is_ordinary(ray);
+        if (!ordinary) shift_ = detail::scale_direction(nodes_[0].voxel.bounds, direction_);
+        if (!enter(ray, ordinary)) return;
         path_[0] = 0;
         level_ = 0;
         for (;;) {
@@ -109,7 +109,7 @@ class ExactWalk {
             const Node& leaf = nodes_[path_[level_]];
             const Bounds3& box = leaf.voxel.bounds;
             const auto [axis, t] = exit_of(box);
-            const double exit = on_ray(lower_bound_of(t));
+            const double exit = lower_bound_of(t);
             if (visit(leaf, exit) || exit >= t_end || axis < 0) return;
             cross(box, axis, t);
             if (!climb()) return;
@@ -131,29 +131,33 @@ class ExactWalk {
     // Moves the origin to where the ray enters the root: first to a point of the ray just before
     // it, correctly rounded by the fused operations, so that a distant origin costs no accuracy;
     // then, from there, exactly onto the face.
-    bool enter(const Ray& ray) {
+    bool enter(const Ray& ray, bool ordinary) {
         const Bounds3& root = nodes_[0].voxel.bounds;
-        origin_ = ray.origin;
         base_ = 0;
-        if (!root.contains(origin_)) {
-            const std::optional<detail::Entry> entry = detail::slab_entry(ray, root);
-            if (!entry) return false;
-            base_ = entry->before();
-            origin_ = {std::fma(base_, direction_.x, origin_.x),
-                       std::fma(base_, direction_.y, origin_.y),
-                       std::fma(base_, direction_.z, origin_.z)};
-            if (detail::is_far(origin_, root) && !detail::approach(ray, root, origin_, base_))
-                return false;
-        }
+        position_ = origin_ = ray.origin;
+        if (root.contains(origin_)) return true;
+        if (!ordinary) return enter_exactly(ray);
+        std::optional<detail::Entry> entry = detail::slab_entry(ray, root);
+        if (!entry) return false;
+        base_ = entry->before();
+        origin_ = {std::fma(base_, direction_.x, origin_.x),
+                   std::fma(base_, direction_.y, origin_.y),
+                   std::fma(base_, direction_.z, origin_.z)};
+        if (detail::is_far(origin_, root)) return enter_exactly(ray);
         position_ = origin_;
         if (root.contains(origin_)) return true;
-        const std::optional<detail::Entry> entry = detail::slab_entry({origin_, direction_}, root);
+        entry = detail::slab_entry({origin_, direction_}, root);
         if (!entry) return false;
         for (int k = 0; k < 3; ++k)
             position_[k] =
                 std::clamp(origin_[k] + entry->t * direction_[k], root.min[k], root.max[k]);
         const int axis = entry->axis;
         if (axis >= 0) position_[axis] = direction_[axis] > 0 ? root.min[axis] : root.max[axis];
+        return true;
+    }
+    bool enter_exactly(const Ray& ray) {
+        if (!detail::enter_exactly(ray, nodes_[0].voxel.bounds, origin_, base_)) return false;
+        position_ = origin_;
         return true;
     }
 
@@ -182,13 +186,11 @@ class ExactWalk {
         return exit;
     }
 
+    // Of a t of the walk, on the ray itself.
     double lower_bound_of(double t) const {
+        if (shift_ != 0 && t != kInfinity)
+            t = std::min(std::ldexp(t, shift_), std::numeric_limits<double>::max() / 2);
         return (base_ + t) - 8 * kUnitRoundoff * (base_ + std::fabs(t)) - 4 * kUnderflow;
-    }
-    // A t of the walk in units of the ray's own direction, rounded down.
-    double on_ray(double t) const {
-        if (shift_ == 0 || t == kInfinity) return t;
-        return std::min(std::ldexp(t, shift_) - kUnderflow, std::numeric_limits<double>::max());
     }
 
     // Onto the face that is left; the other axes follow the ray without ever going back.
@@ -227,7 +229,7 @@ class ExactWalk {
     Vector3 direction_;  // the ray's times 2^shift_
     int shift_ = 0;
     Point3 origin_;    // of the walk: the ray's own, or its entry into the root
-    double base_ = 0;  // t of the walk's origin on the ray
+    double base_ = 0;  // at most the t of the walk's origin on the ray
     Point3 position_;
     std::array<NodeIndex, kMaxLabelDigits + 1> path_{};  // from the root to the current node
     int level_ = 0;
