@@ -81,6 +81,19 @@ RoundedQuadratic rounded_quadratic(const ExactRay& ray, const Ellipsoid& ellipso
     return q;
 }
 
+Bounded<double> rounded_touch_band(const RoundedQuadratic& q, const Ellipsoid& ellipsoid,
+                                   double origin_error) {
+    const BoundedMatrix adjugate = bounded_adjugate(ellipsoid.linear);
+    const Vector3 rho{sum(magnitude(adjugate.value.row[0])), sum(magnitude(adjugate.value.row[1])),
+                      sum(magnitude(adjugate.value.row[2]))};
+    const double size = sum(adjugate.magnitude.row[0]) + sum(adjugate.magnitude.row[1]) +
+                        sum(adjugate.magnitude.row[2]);
+    // rho is known within gamma(8) of its bound, f within its part of c's.
+    return {origin_error * (2 * dot(rho, magnitude(q.f)) + origin_error * dot(rho, rho)),
+            gamma(32) * origin_error * size * (sum(magnitude(q.f)) + origin_error * size) +
+                2 * origin_error * size * q.offset_error};
+}
+
 }  // namespace detail
 
 std::optional<SphereHit> hit(const ExactRay& ray, const Ellipsoid& ellipsoid, StageCounts& counts,
@@ -103,19 +116,9 @@ std::optional<SphereHit> hit(const ExactRay& ray, const Ellipsoid& ellipsoid, St
 bool blocks(const ExactRay& shadow, double end, double origin_error, const Ellipsoid& ellipsoid,
             bool origin_on_it, StageCounts& counts, Sides sides) {
     using namespace detail;
-    RoundedQuadratic q = rounded_quadratic(shadow, ellipsoid);
-    const BoundedMatrix adjugate = bounded_adjugate(ellipsoid.linear);
-    const Vector3 rho{sum(magnitude(adjugate.value.row[0])), sum(magnitude(adjugate.value.row[1])),
-                      sum(magnitude(adjugate.value.row[2]))};
-    const Vector3 rho_bound{sum(adjugate.magnitude.row[0]), sum(adjugate.magnitude.row[1]),
-                            sum(adjugate.magnitude.row[2])};
-    const double band =
-        origin_error * (2 * dot(rho, magnitude(q.f)) + origin_error * dot(rho, rho));
-    // The band's own error: rho's within gamma(8) of its bound, f's within its part of c's.
-    const double size = sum(rho_bound);
-    q.c_error += gamma(32) * origin_error * size * (sum(magnitude(q.f)) + origin_error * size) +
-                 2 * origin_error * size * q.offset_error;
-    const Decision decision = rounded_blocks(q, end, band, origin_on_it, sides);
+    const RoundedQuadratic q = rounded_quadratic(shadow, ellipsoid);
+    const Decision decision =
+        rounded_blocks(q, end, rounded_touch_band(q, ellipsoid, origin_error), origin_on_it, sides);
     if (decision != Decision::kUnsure) return decision == Decision::kYes;
     ++counts.wider;
     ++counts.exact;

@@ -83,10 +83,11 @@ Decision passes_through(const RoundedQuadratic& q, const RoundedEnd& end) {
 
 }  // namespace
 
-Decision rounded_blocks(const RoundedQuadratic& q, double end_t, double band, bool on_it,
-                        Sides sides) {
+Decision rounded_blocks(const RoundedQuadratic& q, double end_t, const Bounded<double>& band,
+                        bool on_it, Sides sides) {
     const RoundedEnd end = rounded_end(q, end_t);
     const double size = std::fabs(q.c);
+    const double size_error = q.c_error + band.error;
     if (on_it) {
         // The lit point itself has c = 0, so its other root lies in (0, end) iff b < 0 and the end
         // lies outside, which does not depend on how the point was rounded.
@@ -94,8 +95,8 @@ Decision rounded_blocks(const RoundedQuadratic& q, double end_t, double band, bo
         if (enters != Decision::kYes || end.endless) return enters;
         return decide(end.power, end.power_error);
     }
-    if (!(size > band + q.c_error)) {
-        if (!(size + q.c_error < band)) return Decision::kUnsure;
+    if (!(size > band.value + size_error)) {
+        if (!(size + size_error < band.value)) return Decision::kUnsure;
         return passes_through(q, end);
     }
     if (q.c < 0) return end.endless ? Decision::kYes : decide(end.power, end.power_error);

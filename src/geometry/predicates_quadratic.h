@@ -1,5 +1,6 @@
 #pragma once
 
+#include "predicates_bounded.h"
 #include "predicates_exact.h"
 
 /// The double stage for spheres and ellipsoids. Internal to the predicates.
@@ -22,13 +23,18 @@ struct RoundedQuadratic {
 RoundedQuadratic rounded_quadratic(const ExactRay& ray, const Sphere& sphere);
 RoundedQuadratic rounded_quadratic(const ExactRay& ray, const Ellipsoid& ellipsoid);
 
+/// What an error of the origin of up to `origin_error` per component can add to |c|.
+Bounded<double> rounded_touch_band(const RoundedQuadratic& q, const Sphere&, double origin_error);
+Bounded<double> rounded_touch_band(const RoundedQuadratic& q, const Ellipsoid&,
+                                   double origin_error);
+
 enum class Decision : std::uint8_t { kNo, kYes, kUnsure };
 
 /// kYes fills `hit`.
 Decision rounded_hit(const RoundedQuadratic& q, Sides sides, SphereHit& hit);
-/// `band`: what the origin's error can add to |c|; `on_it`: the origin stands for a point of it.
-Decision rounded_blocks(const RoundedQuadratic& q, double end, double band, bool on_it,
-                        Sides sides);
+/// `band`: rounded_touch_band(); `on_it`: the origin stands for a point of it.
+Decision rounded_blocks(const RoundedQuadratic& q, double end, const Bounded<double>& band,
+                        bool on_it, Sides sides);
 
 /// f + t g with its error in 2-norm.
 struct RoundedOffset {

@@ -49,17 +49,16 @@ std::optional<SphereHit> sphere_hit(const ExactRay& ray, const Sphere& sphere, S
     return exact_hit(exact_quadratic(ray, sphere), sides);
 }
 
+Bounded<double> rounded_touch_band(const RoundedQuadratic& q, const Sphere&, double origin_error) {
+    const double band = origin_error * (2 * sum(magnitude(q.f)) + 3 * origin_error);
+    return {band, gamma(8) * band};
+}
+
 bool sphere_blocks(const ExactRay& shadow, double end, double origin_error, const Sphere& sphere,
                    bool origin_on_it, Sides sides, StageCounts& counts) {
-    const RoundedQuadratic rounded = rounded_quadratic(shadow, sphere);
-    const double band =
-        origin_error *
-        (2 * (std::fabs(rounded.f.x) + std::fabs(rounded.f.y) + std::fabs(rounded.f.z)) +
-         3 * origin_error);
-    // The band itself is rounded: let c's bound carry that.
-    RoundedQuadratic q = rounded;
-    q.c_error += gamma(8) * band;
-    const Decision decision = rounded_blocks(q, end, band, origin_on_it, sides);
+    const RoundedQuadratic q = rounded_quadratic(shadow, sphere);
+    const Decision decision =
+        rounded_blocks(q, end, rounded_touch_band(q, sphere, origin_error), origin_on_it, sides);
     if (decision != Decision::kUnsure) return decision == Decision::kYes;
     ++counts.wider;
     ++counts.exact;
