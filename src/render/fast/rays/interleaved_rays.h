@@ -161,7 +161,12 @@ class InterleavedRays {
     }
 
     HWY_INLINE void test_leaf(RayState& state) const {
-        const std::uint32_t* const words = tree_.leaves.data() + (state.next & ~WideOctree::kLeaf);
+        const std::uint32_t* words = tree_.leaves.data() + (state.next & ~WideOctree::kLeaf);
+        while (words != nullptr) words = test_part(state, words);
+    }
+
+    // What one head of a leaf lists; returns the next head, if there is one.
+    HWY_INLINE const std::uint32_t* test_part(RayState& state, const std::uint32_t* words) const {
         WideLeafHead head;
         std::memcpy(&head, words, sizeof head);
         const Slot* slots = words + kLeafHeadWords;
@@ -170,16 +175,19 @@ class InterleavedRays {
         std::uint32_t others = head.others;
         if (others == WideLeafHead::kMany) others = *slots++;
         const Slot* const other_slots = slots + triangles + spheres;
-        const RayBlock& ray = block_of(state);
-        const std::size_t lane = state.index % RayBlock::kRays;
-        if (unit_of(head) < ray.least_unit[lane]) {
-            add_open(state, slots, triangles + spheres + others);
-            return;
-        }
-        const RayAtLeaf at(ray, lane, head, state.next_entry);
         const auto* const centers = reinterpret_cast<const float*>(other_slots + others);
         const auto* const corners =
             reinterpret_cast<const std::uint16_t*>(centers + std::size_t{4} * spheres);
+        const std::uint32_t* const behind =
+            head.more ? other_slots + others + std::size_t{4} * spheres + (9 * triangles + 1) / 2
+                      : nullptr;
+        const RayBlock& ray = block_of(state);
+        const std::size_t lane = state.index % RayBlock::kRays;
+        if (power_of_two(head.finest) < static_cast<double>(ray.least_unit[lane])) {
+            add_open(state, slots, triangles + spheres + others);
+            return behind;
+        }
+        const RayAtLeaf at(ray, lane, head, state.next_entry);
         for (std::uint32_t i = 0; i < triangles; i += kWideLanes)
             take(state, at,
                  test_triangles(at, corners + i, triangles, triangles - i, front_only(slots + i),
@@ -191,6 +199,7 @@ class InterleavedRays {
                               front_only(slots + triangles + i), rays_.bounds_scale()),
                  slots + triangles + i, spheres - i);
         if (others != 0) add_open(state, other_slots, others);
+        return behind;
     }
 
     HWY_INLINE void take(RayState& state, const RayAtLeaf& at, const LeafHits& hits,

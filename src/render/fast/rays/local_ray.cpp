@@ -103,8 +103,6 @@ LocalRay::LocalRay(const Ray& ray, const LocalFrame& frame, float reach) {
         direction[axis] = static_cast<float>(d[axis]);
     }
     prepare_slabs(reach);
-    direction_sum =
-        static_cast<float>((std::fabs(d.x) + std::fabs(d.y) + std::fabs(d.z)) * (1 + 0x1p-22));
     square = static_cast<float>(dot(d, d));
     // A point of the ray at a box's entry lies within 2 margins of that box, which is to be less
     // than 2^14 units of the leaf's grid; and its error less than 2^-6 units.

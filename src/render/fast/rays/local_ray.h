@@ -33,10 +33,9 @@ struct LocalRay {
     float far_add[3];
     std::uint32_t signs;  ///< of d, 1 x + 2 y + 4 z: which of WideNode::order
     float direction[3];
-    float direction_sum;  ///< bounds |d.x| + |d.y| + |d.z|
-    float square;         ///< |d|^2 rounded
-    float behind;         ///< the true origin's s, or between it and all that may be met
-    float least_unit;     ///< leaves with a finer grid are not tested in float
+    float square;      ///< |d|^2 rounded
+    float behind;      ///< the true origin's s, or between it and all that may be met
+    float least_unit;  ///< leaves with a finer grid are not tested in float
     double origin[3];
     double step[3];      ///< d
     double error = 0;    ///< see above

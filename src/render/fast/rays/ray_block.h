@@ -43,7 +43,6 @@ class RayBlock {
     float behind[kRays];
     float least_unit[kRays];
     float direction[3][kRays];
-    float direction_sum[kRays];
     float square[kRays];
     float error[kRays];
     alignas(64) double origin[3][kRays];
@@ -74,7 +73,6 @@ class RayBlock {
         const Ints exponent = shift_right<23>(bits_of(float_size));
         const Doubles unit = doubles_from(floats_of(shift_left<23>(Ints(254) - exponent)));
         const Floats error_bound = floats_from((far + Doubles(4.0)) * Doubles(0x1p-49));
-        Floats sum(0.0F);
         Floats squares(0.0F);
         Floats margin(0.0F);
         Ints sign_bits(0);
@@ -98,13 +96,11 @@ class RayBlock {
             o[axis].store(origin[axis]);
             along.store(step[axis]);
             sign_bits = sign_bits | (sign & Ints(1 << axis));
-            sum = sum + abs(along_float);
             squares = mul_add(along_float, along_float, squares);
             margin = max(margin, slack);
         }
         sign_bits.store(signs);
         Floats(0.0F).store(behind);
-        (sum * Floats(1 + 0x1p-20F)).store(direction_sum);
         squares.store(square);
         error_bound.store(error);
         max(margin * Floats(0x1p-13F), error_bound * Floats(0x1p6F)).store(least_unit);
@@ -130,7 +126,6 @@ class RayBlock {
         signs[i] = static_cast<std::int32_t>(ray.signs);
         behind[i] = ray.behind;
         least_unit[i] = ray.least_unit;
-        direction_sum[i] = ray.direction_sum;
         square[i] = ray.square;
         error[i] = static_cast<float>(ray.error);
     }

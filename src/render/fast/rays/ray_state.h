@@ -45,7 +45,7 @@ constexpr std::array<FacesOnRay, 8> faces_by_signs() {
 inline constexpr std::array<FacesOnRay, 8> kFacesBySigns = faces_by_signs();
 
 struct RayState {
-    static constexpr std::size_t kMaxCandidates = 40;
+    static constexpr std::size_t kMaxCandidates = 32;
     static constexpr std::uint32_t kFinished = 1U << 30;
 
     /// What waits of a node, from near to far.

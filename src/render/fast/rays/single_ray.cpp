@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <numeric>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "fast/rays/single_ray.cpp"
@@ -43,7 +44,8 @@ SingleRays::SingleRays(const FastScene& scene, InstructionSet isa, bool redo_exa
     for (const Object& object : scene.scene().objects) {
         const auto* const mesh = std::get_if<TriangleMesh>(&object.shape);
         meshes_.push_back({mesh ? mesh->positions.data() : nullptr,
-                           mesh ? mesh->triangles.data() : nullptr, object.shape_index});
+                           mesh ? mesh->triangles.data() : nullptr, object.shape_index,
+                           scene.front_only(object)});
     }
 }
 
@@ -63,30 +65,78 @@ std::vector<RayAnswer> SingleRays::closest_hits(std::span<const Ray> rays,
 
 std::optional<RayCandidate> SingleRays::decide(const Ray& ray, const LocalRay& local,
                                                std::span<const RayCandidate> candidates) const {
-    const ExactRay prepared = kernel_.prepare(ray);
-    std::optional<Kernel::Hit> best;
-    Slot slot = kNoSlot;
-    for (const RayCandidate& candidate : candidates) {
-        const auto hit = kernel_.hit_of(prepared, scene_.id(candidate.slot));
-        if (!hit || (best && !kernel_.precedes(prepared, *hit, *best))) continue;
-        best = hit;
-        slot = candidate.slot;
-    }
-    if (!best) return std::nullopt;
+    std::array<Slot, RayState::kMaxCandidates> slots;
+    std::size_t count = 0;
+    for (const RayCandidate& candidate : candidates) slots[count++] = candidate.slot;
+    std::sort(slots.begin(), slots.begin() + count);
+    count =
+        static_cast<std::size_t>(std::unique(slots.begin(), slots.begin() + count) - slots.begin());
+    const auto hit = nearest_of(ray, {slots.data(), count});
+    if (!hit) return std::nullopt;
     // Rounded to float, with the advance's and the origin's errors: |d| >= 1.
-    const double s = best->root.t * local.scale - local.advance;
+    const double s = hit->t * local.scale - local.advance;
     const double slack = 4 * kFloatRoundoff * std::fabs(s) + 4 * local.error +
                          2 * root_tolerance() * (std::fabs(s) + local.advance) +
                          std::numeric_limits<float>::min();
-    return RayCandidate{static_cast<float>(s - slack), static_cast<float>(s + slack), slot, true};
+    return RayCandidate{static_cast<float>(s - slack), static_cast<float>(s + slack), hit->slot,
+                        true};
+}
+
+std::optional<SingleRays::Nearest> SingleRays::nearest_of(const Ray& ray,
+                                                          std::span<Slot> slots) const {
+    static_assert(RayState::kMaxCandidates <= TriangleRoots::kCount);
+    const auto triangles = static_cast<std::size_t>(
+        std::lower_bound(slots.begin(), slots.end(), scene_.triangle_end()) - slots.begin());
+    TriangleRoots roots;
+    for (std::size_t i = 0; i < triangles; ++i) set_pair(roots, i, ray, slots[i]);
+    roots_.find(roots, triangles);
+    double end = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < triangles; ++i)
+        if ((roots.hit >> i & 1) != 0) end = std::min(end, roots.t[i] * (1 + root_tolerance()));
+    std::size_t left = 0;
+    std::optional<Nearest> sure;
+    for (std::size_t i = 0; i < slots.size(); ++i) {
+        const bool hit = i < triangles && (roots.hit >> i & 1) != 0;
+        if (hit && roots.t[i] * (1 - root_tolerance()) > end) continue;
+        if (i < triangles && (roots.missed >> i & 1) != 0) continue;
+        if (hit) sure = Nearest{slots[i], roots.t[i]};
+        slots[left++] = slots[i];
+    }
+    if (left == 0 || (left == 1 && sure)) return sure;
+    return exactly_nearest_of(ray, slots.first(left));
+}
+
+std::optional<SingleRays::Nearest> SingleRays::exactly_nearest_of(
+    const Ray& ray, std::span<const Slot> slots) const {
+    const ExactRay prepared = kernel_.prepare(ray);
+    std::optional<Kernel::Hit> best;
+    Slot nearest = kNoSlot;
+    for (const Slot slot : slots) {
+        const auto hit = kernel_.hit_of(prepared, scene_.id(slot));
+        if (!hit || (best && !kernel_.precedes(prepared, *hit, *best))) continue;
+        best = hit;
+        nearest = slot;
+    }
+    if (!best) return std::nullopt;
+    return Nearest{nearest, best->root.t};
 }
 
 double SingleRays::root_of(const Ray& ray, Slot slot) const {
     return kernel_.hit_of(kernel_.prepare(ray), scene_.id(slot))->root.t;
 }
 
+void SingleRays::set_pair(TriangleRoots& roots, std::size_t i, const Ray& ray, Slot slot) const {
+    const PrimitiveSource& source = scene_.source(slot);
+    const MeshPlace& mesh = meshes_[source.object];
+    const IndexTriple& corners = mesh.triangles[source.triangle];
+    roots.set(i, ray, mesh.positions[corners[0]], mesh.positions[corners[1]],
+              mesh.positions[corners[2]]);
+    const std::uint32_t bit = std::uint32_t{1} << i;
+    roots.front_only = mesh.front_only ? roots.front_only | bit : roots.front_only & ~bit;
+}
+
 void SingleRays::answer(std::span<const Ray> rays, const Slot* found, RayAnswer* answers) const {
-    TriangleRoots roots{};
+    TriangleRoots roots;
     std::array<std::size_t, TriangleRoots::kCount> ray_of;
     std::size_t count = 0;
     const auto finish = [&] {
@@ -104,32 +154,23 @@ void SingleRays::answer(std::span<const Ray> rays, const Slot* found, RayAnswer*
             continue;
         }
         const PrimitiveSource& source = scene_.source(found[i]);
-        const MeshPlace& mesh = meshes_[source.object];
-        answers[i] = {true, mesh.shape, source.triangle, 0};
+        answers[i] = {true, meshes_[source.object].shape, source.triangle, 0};
         if (found[i] >= scene_.triangle_end()) {
             answers[i].t = root_of(rays[i], found[i]);
             continue;
         }
-        const IndexTriple& corners = mesh.triangles[source.triangle];
         ray_of[count] = i;
-        roots.set(count++, rays[i], mesh.positions[corners[0]], mesh.positions[corners[1]],
-                  mesh.positions[corners[2]]);
+        set_pair(roots, count++, rays[i], found[i]);
         if (count == TriangleRoots::kCount) finish();
     }
     finish();
 }
 
 Slot SingleRays::brute_force(const Ray& ray) const {
-    std::optional<Kernel::Hit> best;
-    const ExactRay prepared = kernel_.prepare(ray);
-    Slot nearest = kNoSlot;
-    for (Slot slot = 0; slot < scene_.slot_end(); ++slot) {
-        const auto hit = kernel_.hit_of(prepared, scene_.id(slot));
-        if (!hit || (best && !kernel_.precedes(prepared, *hit, *best))) continue;
-        best = hit;
-        nearest = slot;
-    }
-    return nearest;
+    std::vector<Slot> slots(scene_.slot_end());
+    std::iota(slots.begin(), slots.end(), Slot{0});
+    const auto nearest = exactly_nearest_of(ray, slots);
+    return nearest ? nearest->slot : kNoSlot;
 }
 
 }  // namespace nuvo

@@ -58,9 +58,19 @@ class SingleRays {
         const Point3* positions;
         const IndexTriple* triangles;
         std::int64_t shape;
+        bool front_only;
+    };
+    struct Nearest {
+        Slot slot;
+        double t;  // Root::t
     };
 
     double root_of(const Ray& ray, Slot slot) const;
+    /// The nearest of different slots, which ascend; changes them. By vectors of doubles where
+    /// these are sure.
+    std::optional<Nearest> nearest_of(const Ray& ray, std::span<Slot> slots) const;
+    std::optional<Nearest> exactly_nearest_of(const Ray& ray, std::span<const Slot> slots) const;
+    void set_pair(TriangleRoots& roots, std::size_t i, const Ray& ray, Slot slot) const;
 
     const FastScene& scene_;
     Kernel kernel_;

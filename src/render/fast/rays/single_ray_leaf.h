@@ -14,7 +14,8 @@
 #include "fast/simd/lanes.h"
 
 // One ray against 16 primitives of a leaf. The ray is seen from the point where it enters the
-// leaf's box, in units of the leaf's grid, so that all numbers are small whatever the distance.
+// leaf's box, in units of the leaf's grid on each axis, so that all numbers are small whatever the
+// distance, and flat leaves keep their digits.
 //
 // Bounds, with u = 2^-24 and M = kReach the largest difference of two coordinates there: the box is
 // at most 2^16 units wide and the point within 2^14 of it (LocalRay::least_unit). A corner seen
@@ -64,9 +65,6 @@ HWY_INLINE double power_of_two(int exponent) {
     constexpr int kPlace = 52;
     return std::bit_cast<double>(static_cast<std::uint64_t>(kBias + exponent) << kPlace);
 }
-HWY_INLINE float unit_of(const WideLeafHead& head) {
-    return static_cast<float>(power_of_two(head.exponent));
-}
 /// The first `count` lanes, or all.
 HWY_INLINE std::uint32_t first_lanes(std::uint32_t count) {
     return count < kWideLanes ? (1U << count) - 1 : 0xffffU;
@@ -76,39 +74,39 @@ HWY_INLINE std::uint32_t first_lanes(std::uint32_t count) {
 struct RayAtLeaf {
     HWY_INLINE RayAtLeaf(const RayBlock& block, std::size_t lane, const WideLeafHead& head,
                          float entry_at)
-        : direction_sum(block.direction_sum[lane]),
-          square(block.square[lane]),
+        : square(block.square[lane]),
           point_error(block.error[lane]),
           behind(block.behind[lane]),
-          entry(entry_at),
-          unit(unit_of(head)) {
-        const double inverse = power_of_two(-head.exponent);
+          entry(entry_at) {
+        float sum = 0;
         for (int axis = 0; axis < 3; ++axis) {
+            const double inverse = power_of_two(-head.exponent[axis]);
             const double p =
                 block.origin[axis][lane] + static_cast<double>(entry) * block.step[axis][lane];
             from[axis] = static_cast<float>(p);
             at[axis] = static_cast<float>((p - static_cast<double>(head.base[axis])) * inverse);
+            direction[axis] = block.direction[axis][lane];
+            step[axis] = direction[axis] * static_cast<float>(inverse);
+            sum += std::fabs(step[axis]);
         }
-        direction = {Floats(block.direction[0][lane]), Floats(block.direction[1][lane]),
-                     Floats(block.direction[2][lane])};
+        step_sum = sum * (1 + 0x1p-20F);
     }
-    /// Bounds on s from `along`, known within `error`, both in units of the grid.
+    /// Bounds on s from `along`, known within `error`.
     HWY_INLINE void set_interval(LeafHits& hits, const Floats& along, const Floats& error) const {
-        // A product with a power of two, a sum, and the sums here: 4 roundings.
-        const Floats s = mul_add(along, Floats(unit), Floats(entry));
-        const Floats slack =
-            mul_add(error, Floats(unit), (abs(s) + Floats(entry)) * Floats(4 * kFloatRoundoff));
+        // A sum, and the sums here: less than 4 roundings.
+        const Floats s = along + Floats(entry);
+        const Floats slack = mul_add(abs(s) + Floats(entry), Floats(4 * kFloatRoundoff), error);
         hits.low = s - slack;
         hits.high = s + slack;
     }
 
-    Vector16 direction;
-    float direction_sum;  ///< the next four: as in LocalRay
-    float square;
+    float direction[3];
+    float step[3];   ///< the direction in units of the leaf's grid
+    float step_sum;  ///< bounds |step.x| + |step.y| + |step.z|
+    float square;    ///< the next three: as in LocalRay
     float point_error;
     float behind;
     float entry;
-    float unit;
     float from[3];  ///< the point of entry, local
     float at[3];    ///< the same on the leaf's grid
 };
@@ -142,14 +140,14 @@ HWY_INLINE LeafHits test_triangles(const RayAtLeaf& ray, const std::uint16_t* co
     const Vector16 a = load_corner(corners, stride, 0, ray);
     const Vector16 b = load_corner(corners, stride, 1, ray);
     const Vector16 c = load_corner(corners, stride, 2, ray);
-    const Vector16& d = ray.direction;
+    const Vector16 d = {Floats(ray.step[0]), Floats(ray.step[1]), Floats(ray.step[2])};
     const Vector16 dc = cross(d, c);
     const Floats u = dot(b, dc);
     const Floats v = -dot(a, dc);
     const Floats w = dot(a, cross(d, b));
     constexpr float kEdge =
         4 * kCorner * kReach + 2 * kCorner * kCorner + 18 * kFloatRoundoff * kReach * kReach;
-    const Floats edge_error(scale * kEdge * (1 + 8 * kFloatRoundoff) * ray.direction_sum);
+    const Floats edge_error(scale * kEdge * (1 + 8 * kFloatRoundoff) * ray.step_sum);
     const Floats least = min(u, min(v, w));
     const Floats most = max(u, max(v, w));
     const RayMask inside = (least > edge_error) | without(most < -edge_error, front);
@@ -164,7 +162,7 @@ HWY_INLINE LeafHits test_triangles(const RayAtLeaf& ray, const std::uint16_t* co
     const Floats slope = dot(n, d);
     const Floats k = (max(norm(e1), norm(e2)) + Floats(kCorner)) * Floats(scale * 9 * kCorner);
     const Floats height_error = mul_add(k, sum(a), sum(n) * Floats(scale * kCorner));
-    const Floats slope_error = k * Floats(ray.direction_sum);
+    const Floats slope_error = k * Floats(ray.step_sum);
     const Floats inverse = Floats(1.0F) / slope;
     const Floats along = height * inverse;
     // 1 / (1 - share) <= 1 + 2 share for a share of at most 1/2.
@@ -197,7 +195,8 @@ HWY_INLINE LeafHits test_spheres(const RayAtLeaf& ray, const float* values, std:
                         Floats(ray.from[1]) - Floats::load(values + stride, present),
                         Floats(ray.from[2]) - Floats::load(values + 2 * stride, present)};
     const Floats r = Floats::load(values + 3 * stride, present);
-    const Vector16& d = ray.direction;
+    const Vector16 d = {Floats(ray.direction[0]), Floats(ray.direction[1]),
+                        Floats(ray.direction[2])};
     const Floats inverse(1 / ray.square);
     const Floats middle = -dot(f, d) * inverse;
     const Vector16 l = {mul_add(middle, d.x, f.x), mul_add(middle, d.y, f.y),

@@ -27,9 +27,6 @@ struct Vectors8 {
     friend HWY_INLINE Vectors8 operator-(const Vectors8& p, const Vectors8& q) {
         return {p.x - q.x, p.y - q.y, p.z - q.z};
     }
-    friend HWY_INLINE Doubles8 dot(const Vectors8& p, const Vectors8& q) {
-        return p.x * q.x + p.y * q.y + p.z * q.z;
-    }
 };
 
 // One component of p x q, and the sum of its terms' magnitudes.
@@ -45,36 +42,74 @@ struct CrossTerm {
     }
 };
 
+// p x q.
+struct Cross {
+    CrossTerm x, y, z;
+    HWY_INLINE Cross(const Vectors8& p, const Vectors8& q)
+        : x(p.y, q.z, p.z, q.y), y(p.z, q.x, p.x, q.z), z(p.x, q.y, p.y, q.x) {}
+    HWY_INLINE Doubles8 dot(const Vectors8& v) const {
+        return x.value * v.x + y.value * v.y + z.value * v.z;
+    }
+    // Bounds the error of dot(v), times `by`. Underflow adds 2^-1070 and less times each component.
+    HWY_INLINE Doubles8 error(const Vectors8& v, double by) const {
+        const Doubles8 sum =
+            mul_add(z.size, abs(v.z), mul_add(y.size, abs(v.y), x.size * abs(v.x)));
+        const Doubles8 reach = abs(v.x) + abs(v.y) + abs(v.z);
+        return mul_add(sum, Doubles8(by * (gamma(9) * (1 + 0x1p-40))),
+                       (reach + Doubles8(1.0)) * Doubles8(by * std::numeric_limits<double>::min()));
+    }
+};
+
+using PairMask = LaneMask<double, 8>;
+
+// On which side the line passes of a triangle's edges.
+struct Sides8 {
+    PairMask all_positive, all_negative, any_positive, any_negative;
+
+    HWY_INLINE Sides8(const Vectors8& d, const Vectors8& a, const Vectors8& b, const Vectors8& c)
+        : Sides8(d, Cross(c, b)) {
+        for (const Sides8& edge : {Sides8(d, Cross(a, c)), Sides8(d, Cross(b, a))}) {
+            all_positive = all_positive & edge.all_positive;
+            all_negative = all_negative & edge.all_negative;
+            any_positive = any_positive | edge.any_positive;
+            any_negative = any_negative | edge.any_negative;
+        }
+    }
+    HWY_INLINE Sides8(const Vectors8& d, const Cross& edge) {
+        const Doubles8 value = edge.dot(d);
+        const Doubles8 error = edge.error(d, 1);
+        all_positive = any_positive = value > error;
+        all_negative = any_negative = value < -error;
+    }
+};
+
 void find_roots(TriangleRoots& roots, std::size_t count) {
     constexpr double kShare = 0.4375 * root_tolerance();
-    constexpr double kBound = gamma(9) / kShare * (1 + 0x1p-40);
-    constexpr double kTiny = std::numeric_limits<double>::min() / kShare;
-    roots.found = 0;
+    roots.found = roots.hit = roots.missed = 0;
     for (std::size_t i = 0; i < count; i += 8) {
         const Vectors8 a = Vectors8::load(roots.a, i);
-        const Vectors8 e1 = Vectors8::load(roots.b, i) - a;
-        const Vectors8 e2 = Vectors8::load(roots.c, i) - a;
-        const CrossTerm x(e1.y, e2.z, e1.z, e2.y);
-        const CrossTerm y(e1.z, e2.x, e1.x, e2.z);
-        const CrossTerm z(e1.x, e2.y, e1.y, e2.x);
-        const Vectors8 normal{x.value, y.value, z.value};
-        const Vectors8 toward = a - Vectors8::load(roots.origin, i);
+        const Vectors8 b = Vectors8::load(roots.b, i);
+        const Vectors8 c = Vectors8::load(roots.c, i);
+        const Vectors8 o = Vectors8::load(roots.origin, i);
         const Vectors8 d = Vectors8::load(roots.direction, i);
-        const Doubles8 height = dot(normal, toward);
-        const Doubles8 slope = dot(normal, d);
+        const Cross normal(b - a, c - a);
+        const Vectors8 toward = a - o;
+        const Doubles8 height = normal.dot(toward);
+        const Doubles8 slope = normal.dot(d);
         const Doubles8 t = height / slope;
-        const auto bound = [&](const Vectors8& v) HWY_ATTR {
-            const Doubles8 sum =
-                mul_add(z.size, abs(v.z), mul_add(y.size, abs(v.y), x.size * abs(v.x)));
-            // Underflow adds 2^-1070 and less times each component.
-            const Doubles8 reach = abs(v.x) + abs(v.y) + abs(v.z);
-            return mul_add(sum, Doubles8(kBound), (reach + Doubles8(1.0)) * Doubles8(kTiny));
-        };
-        const auto known = (abs(height) >= bound(toward)) & (abs(slope) >= bound(d)) &
-                           (t > Doubles8(detail::kSmallestRoot)) &
-                           (t < Doubles8(detail::kLargestRoot));
+        const PairMask sure = (abs(height) >= normal.error(toward, 1 / kShare)) &
+                              (abs(slope) >= normal.error(d, 1 / kShare));
+        const PairMask known =
+            sure & (t > Doubles8(detail::kSmallestRoot)) & (t < Doubles8(detail::kLargestRoot));
+        const Sides8 sides(d, toward, b - o, c - o);
+        // The edge functions add up to -n.d: of a front all are positive.
+        const PairMask front = PairMask::from_bits(roots.front_only >> i & 0xff);
+        const PairMask inside = sides.all_positive | without(sides.all_negative, front);
+        const PairMask outside = sides.any_negative & (sides.any_positive | front);
         t.store(roots.t + i);
         roots.found |= known.bits() << i;
+        roots.hit |= (known & inside).bits() << i;
+        roots.missed |= (outside | (sure & (t < Doubles8(0.0)))).bits() << i;
     }
 }
 

@@ -7,13 +7,14 @@
 #include "nuvo/math/ray.h"
 #include "nuvo/render/fast.h"
 
-// Where rays meet triangles that they are known to meet: Root::t of the exact predicates, many at a
-// time. It is the first stage of hit() (predicates_triangle.cpp) in vectors of doubles, operation
-// by operation, and leaves open what that stage leaves to the wider ones.
+// Whether and where rays meet triangles, many pairs at a time: the first stage of the exact
+// predicates (predicates_triangle.cpp) in vectors of doubles. It leaves open what that stage leaves
+// to the wider ones. Root::t is that stage's to the last bit, for it is computed operation by
+// operation.
 
 namespace nuvo {
 
-/// Rays and triangles side by side.
+/// Pairs of a ray and a triangle side by side.
 struct alignas(64) TriangleRoots {
     static constexpr std::size_t kCount = 32;
 
@@ -23,7 +24,11 @@ struct alignas(64) TriangleRoots {
     double origin[3][kCount];
     double direction[3][kCount];
     double t[kCount];  ///< Root::t where `found`
-    std::uint32_t found;
+    // One bit each:
+    std::uint32_t front_only = 0;  ///< of the triangle the back is invisible
+    std::uint32_t found;           ///< the plane is met at a t > 0 that is known
+    std::uint32_t hit;             ///< `found`, and surely within the triangle
+    std::uint32_t missed;          ///< surely not met at a t > 0
 
     void set(std::size_t i, const Ray& ray, const Point3& at, const Point3& bt, const Point3& ct) {
         for (int axis = 0; axis < 3; ++axis) {
@@ -36,7 +41,7 @@ struct alignas(64) TriangleRoots {
     }
 };
 
-/// Fills in t and `found` of the first `count`.
+/// Fills in the answers to the first `count`.
 class TriangleRootStage {
   public:
     explicit TriangleRootStage(InstructionSet isa);

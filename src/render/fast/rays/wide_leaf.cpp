@@ -13,16 +13,18 @@
 namespace nuvo {
 namespace {
 
-// Triangles this many times as large as the leaf's smallest would make the grid too coarse for it;
-// they are tested exactly.
+// Triangles this many times as large as a grid's smallest would make it too coarse for that one.
 constexpr double kLargestRatio = 16;
 
-// Half a float unit of 1 to nearest, the rest for doubles' roundings.
+// One rounding to float, and of the doubles what roundings of numbers up to 1 can add.
+float rounded_down(double x) { return static_cast<float>(x - (std::fabs(x) * 0x1p-23 + 0x1p-50)); }
+float rounded_up(double x) { return -rounded_down(-x); }
+
 Bounds3T<float> rounded_outwards(const Bounds3& box) {
     Bounds3T<float> out;
     for (int axis = 0; axis < 3; ++axis) {
-        out.min[axis] = static_cast<float>(box.min[axis] - 0x1p-23);
-        out.max[axis] = static_cast<float>(box.max[axis] + 0x1p-23);
+        out.min[axis] = rounded_down(box.min[axis]);
+        out.max[axis] = rounded_up(box.max[axis]);
     }
     return out;
 }
@@ -39,20 +41,19 @@ double extent(const Bounds3& box) { return max_norm(box.widths()); }
 
 struct Grid {
     Vec3<float> base{0, 0, 0};
-    int exponent = 0;
-    double unit() const { return std::ldexp(1.0, exponent); }
+    std::array<int, 3> exponent{};
 };
 
-// A grid over the box. The base is rounded downwards by up to one float unit of 1.
 Grid grid_over(const Bounds3& box) {
     Grid grid;
-    double width = 0;
     for (int axis = 0; axis < 3; ++axis) {
-        grid.base[axis] = static_cast<float>(box.min[axis] - 0x1p-23);
-        width = std::max(width, box.max[axis] - static_cast<double>(grid.base[axis]));
+        grid.base[axis] = rounded_down(box.min[axis]);
+        const double width = box.max[axis] - static_cast<double>(grid.base[axis]);
+        std::frexp(width / kLargestCorner, &grid.exponent[axis]);
     }
-    std::frexp(width / kLargestCorner, &grid.exponent);
-    grid.exponent = std::max(grid.exponent, kLeastExponent);
+    const int widest = *std::max_element(grid.exponent.begin(), grid.exponent.end());
+    const int flattest = std::max(std::min(widest, kFlattestExponent), kLeastExponent);
+    for (int& exponent : grid.exponent) exponent = std::max(exponent, flattest);
     return grid;
 }
 
@@ -64,12 +65,12 @@ void put_corners(const Grid& grid, std::span<const Triangle> triangles,
                  std::vector<std::uint32_t>& words) {
     if (triangles.empty()) return;
     std::vector<std::uint16_t> numbers;
-    const double unit = grid.unit();
     for (const auto corner : {&Triangle::a, &Triangle::b, &Triangle::c})
         for (int axis = 0; axis < 3; ++axis)
             for (const Triangle& t : triangles)
                 numbers.push_back(static_cast<std::uint16_t>(std::nearbyint(
-                    ((t.*corner)[axis] - static_cast<double>(grid.base[axis])) / unit)));
+                    std::ldexp((t.*corner)[axis] - static_cast<double>(grid.base[axis]),
+                               -grid.exponent[axis]))));
     const std::size_t place = words.size();
     words.resize(place + (numbers.size() + 1) / 2);
     std::memcpy(words.data() + place, numbers.data(), numbers.size() * sizeof(std::uint16_t));
@@ -101,7 +102,7 @@ std::size_t cut_polygon(Polygon& polygon, std::size_t count, int axis, double pl
 
 namespace {
 
-// A leaf's primitives by what becomes of them.
+// Primitives of one head by what becomes of them.
 struct Sorted {
     std::vector<Slot> triangles;
     std::vector<Triangle> corners;
@@ -110,18 +111,29 @@ struct Sorted {
     std::vector<Slot> others;
 };
 
-void sort_triangles(const FastScene& scene, std::span<const Slot> slots, Sorted& out) {
-    double smallest = std::numeric_limits<double>::infinity();
-    for (const Slot slot : slots)
-        smallest = std::min(smallest, extent(local_triangle(scene, slot).bounds()));
+struct SizedTriangle {
+    double extent;
+    Slot slot;
+    Triangle corners;
+};
+
+// Into as many heads as their sizes ask for.
+void sort_triangles(const FastScene& scene, std::span<const Slot> slots, std::vector<Sorted>& out) {
+    std::vector<SizedTriangle> triangles;
     for (const Slot slot : slots) {
         const Triangle t = local_triangle(scene, slot);
-        if (extent(t.bounds()) > kLargestRatio * smallest) {
-            out.others.push_back(slot);
-        } else {
-            out.triangles.push_back(slot);
-            out.corners.push_back(t);
+        triangles.push_back({extent(t.bounds()), slot, t});
+    }
+    std::sort(triangles.begin(), triangles.end(),
+              [](const auto& a, const auto& b) { return a.extent < b.extent; });
+    double smallest = triangles.empty() ? 0 : triangles.front().extent;
+    for (const SizedTriangle& t : triangles) {
+        if (t.extent > kLargestRatio * smallest) {
+            smallest = t.extent;
+            out.emplace_back();
         }
+        out.back().triangles.push_back(t.slot);
+        out.back().corners.push_back(t.corners);
     }
 }
 
@@ -142,38 +154,45 @@ void sort_others(const FastScene& scene, std::span<const Slot> slots, Sorted& ou
 
 // `slots` ascend. More than a byte can count are all tested exactly: there is no telling them
 // apart, or the octree would have.
-Sorted sort_by_kind(const FastScene& scene, std::span<const Slot> slots) {
-    Sorted out;
+std::vector<Sorted> sort_by_kind(const FastScene& scene, std::span<const Slot> slots) {
+    std::vector<Sorted> out(1);
     if (slots.size() >= WideLeafHead::kMany) {
-        out.others.assign(slots.begin(), slots.end());
+        out[0].others.assign(slots.begin(), slots.end());
         return out;
     }
     const auto spheres = std::lower_bound(slots.begin(), slots.end(), scene.triangle_end());
     const auto count = static_cast<std::size_t>(spheres - slots.begin());
+    sort_others(scene, slots.subspan(count), out[0]);
     sort_triangles(scene, slots.first(count), out);
-    sort_others(scene, slots.subspan(count), out);
     return out;
 }
 
-}  // namespace
+WideLeafHead head_of(const Sorted& sorted, const Grid& grid, bool more) {
+    WideLeafHead head;
+    for (int axis = 0; axis < 3; ++axis) {
+        head.base[axis] = grid.base[axis];
+        head.exponent[axis] = static_cast<std::int8_t>(grid.exponent[axis]);
+    }
+    head.finest = *std::min_element(head.exponent, head.exponent + 3);
+    head.triangles = static_cast<std::uint8_t>(sorted.triangles.size());
+    head.spheres = static_cast<std::uint8_t>(sorted.spheres.size());
+    head.others =
+        static_cast<std::uint8_t>(std::min<std::size_t>(sorted.others.size(), WideLeafHead::kMany));
+    head.more = more;
+    return head;
+}
 
-std::uint32_t append_leaf(const FastScene& scene, std::span<const Slot> slots,
-                          const Bounds3T<float>& box, std::vector<std::uint32_t>& words) {
-    const Sorted sorted = sort_by_kind(scene, slots);
+void put_part(const FastScene& scene, const Sorted& sorted, const Bounds3T<float>& box, bool more,
+              std::vector<std::uint32_t>& words) {
     Bounds3 span{Point3(box.min), Point3(box.max)};
     for (const Triangle& t : sorted.corners) span = span.extended(t.bounds());
     const Grid grid = span.empty() ? Grid{} : grid_over(span);
-    WideLeafHead head;
-    for (int axis = 0; axis < 3; ++axis) head.base[axis] = grid.base[axis];
-    head.exponent = static_cast<std::int8_t>(grid.exponent);
-    head.triangles = static_cast<std::uint8_t>(sorted.triangles.size());
-    head.spheres = static_cast<std::uint8_t>(sorted.spheres.size());
-    const bool many = sorted.others.size() >= WideLeafHead::kMany;
-    head.others = many ? WideLeafHead::kMany : static_cast<std::uint8_t>(sorted.others.size());
+    const WideLeafHead head = head_of(sorted, grid, more);
     const std::size_t place = words.size();
     words.resize(place + kLeafHeadWords);
     std::memcpy(words.data() + place, &head, sizeof head);
-    if (many) words.push_back(static_cast<std::uint32_t>(sorted.others.size()));
+    if (head.others == WideLeafHead::kMany)
+        words.push_back(static_cast<std::uint32_t>(sorted.others.size()));
     for (const auto* part : {&sorted.triangles, &sorted.spheres, &sorted.others})
         for (const Slot slot : *part) {
             const Object& object = scene.scene().objects[scene.source(slot).object];
@@ -181,6 +200,15 @@ std::uint32_t append_leaf(const FastScene& scene, std::span<const Slot> slots,
         }
     for (const auto& values : sorted.centers_and_radii) put_floats(values, words);
     put_corners(grid, sorted.corners, words);
+}
+
+}  // namespace
+
+std::uint32_t append_leaf(const FastScene& scene, std::span<const Slot> slots,
+                          const Bounds3T<float>& box, std::vector<std::uint32_t>& words) {
+    const std::vector<Sorted> parts = sort_by_kind(scene, slots);
+    const std::size_t place = words.size();
+    for (const Sorted& part : parts) put_part(scene, part, box, &part != &parts.back(), words);
     return static_cast<std::uint32_t>(place);
 }
 

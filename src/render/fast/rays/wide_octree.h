@@ -27,30 +27,36 @@ struct alignas(64) WideNode {
     std::uint32_t order[8][2];
 };
 
-/// Copies of a leaf's primitives, side by side, in 32-bit words from its place on: this head, then
+/// Copies of primitives of a leaf, side by side, in 32-bit words from its place on: this head, then
 /// the slots of triangles, spheres and others, with kFrontOnly where the back is invisible; center
 /// x, y, z and radius of the spheres in the local frame; corners of the triangles (a.x of all, a.y
-/// of all ... c.z of all) in 16 bits each, local coordinate = base + unit * number. `others` are to
-/// be tested exactly.
+/// of all ... c.z of all) in 16 bits each, local coordinate = base + unit * number on each axis.
+/// `others` are to be tested exactly. Triangles much larger than these follow behind, with a head
+/// and a grid of their own.
 struct WideLeafHead {
     float base[3];
-    std::int8_t exponent;  ///< unit = 2^exponent
+    std::int8_t exponent[3];  ///< unit = 2^exponent
+    std::int8_t finest;       ///< the least of these
     std::uint8_t triangles;
     std::uint8_t spheres;
     /// kMany: more than fit into a byte, in the word behind the head.
     std::uint8_t others;
+    bool more;  ///< another head follows
 
     static constexpr std::uint8_t kMany = 255;
 };
 inline constexpr std::uint32_t kFrontOnly = 1U << 31;
 inline constexpr std::size_t kLeafHeadWords = sizeof(WideLeafHead) / sizeof(std::uint32_t);
-static_assert(kLeafHeadWords == 4);
+static_assert(kLeafHeadWords == 5);
 
 /// How far a copied corner lies from base + unit * number, in units: rounded to nearest, plus what
 /// three double roundings of local coordinates can add while the unit is at least 2^-38.
 inline constexpr double kCornerRounding = 0.5 + 0x1p-10;
 /// Smaller leaves are copied as coarsely as 2 to this.
 inline constexpr int kLeastExponent = -38;
+/// And the unit of an axis is no finer than 2 to this unless that of the widest is: from units half
+/// as wide on, rays from far within the scene could not be tested (LocalRay::least_unit).
+inline constexpr int kFlattestExponent = -32;
 /// Largest number of a corner.
 inline constexpr double kLargestCorner = 65535;
 
