@@ -39,7 +39,7 @@ bool is_proxy(const Element& child) {
 }
 
 std::vector<bool> drawn_layers(const Element& node, const Fields& fields) {
-    std::vector<std::int32_t> order = fields.integers("order");
+    Integers order = fields.integers("order");
     if (order.empty()) order = {0};
     std::vector<bool> drawn;
     std::int32_t layer = 0;
@@ -57,7 +57,7 @@ const Element* drawn_child(const Element& parent, std::size_t number) {
 }
 
 const Element* chosen_child(const Element& node, const Fields& fields) {
-    const std::vector<std::int32_t> choice = fields.integers("whichChoice");
+    const Integers choice = fields.integers("whichChoice");
     if (choice.size() > 1) fields.reject("whichChoice", "is more than one number");
     if (choice.size() != 1 || choice[0] < 0) return nullptr;
     return drawn_child(node, static_cast<std::size_t>(choice[0]));

@@ -114,8 +114,7 @@ const Document& Documents::read_file(const fs::path& path) {
     std::error_code error;
     const fs::path canonical = fs::canonical(path, error);
     if (error && !is_absence(error)) fail_to_read(path, "cannot be found", error);
-    // The text is gone before the scene is built.
-    Document& document = parse(read_bytes(path), path.string(), path.parent_path());
+    Document& document = parse_file(path);
     if (!error) {
         home_ = canonical.parent_path();
         open_.push_back(canonical.string());
@@ -131,7 +130,7 @@ const Document& Documents::read_text(std::string_view text, const std::string& n
     return document;
 }
 
-std::string Documents::read_bytes(const fs::path& path) {
+Text Documents::read_bytes(const fs::path& path) {
     std::error_code ignored;
     if (fs::is_directory(path, ignored)) fail_to_read(path, "is a folder, not a file");
     errno = 0;
@@ -144,33 +143,52 @@ std::string Documents::read_bytes(const fs::path& path) {
                                    std::string(" too large: ") + std::to_string(bytes_ + size) +
                                    " bytes (limit " + std::to_string(limits_.file_bytes) + ")");
     };
-    std::string text;
+    constexpr std::size_t kBlock = 1 << 18;
+    Text text;
     const std::uintmax_t size = fs::file_size(path, ignored);
     if (!ignored) {
         check_size(size);
-        text.reserve(size);
+        text.reserve(size + kBlock);
+        text.resize(size);
     }
-    std::vector<char> block(1 << 18);
-    while (file.read(block.data(), static_cast<std::streamsize>(block.size())), file.gcount() > 0) {
-        text.append(block.data(), static_cast<std::size_t>(file.gcount()));
-        check_size(text.size());
-    }
+    // There is always room for more than was announced, so that the end is met and not guessed.
+    std::size_t length = 0;
+    do {
+        text.resize(std::max(text.size(), length + kBlock));
+        file.read(text.data() + length, static_cast<std::streamsize>(text.size() - length));
+        length += static_cast<std::size_t>(file.gcount());
+        check_size(length);
+    } while (file.gcount() > 0);
+    text.resize(length);
     if (file.bad()) fail_to_read(path, "cannot be read");
     if (!ignored && text.size() < size)
         fail_to_read(path, "ends after " + std::to_string(text.size()) + " of its " +
                                std::to_string(size) + " bytes");
-    if (is_gzip(text)) {
+    if (is_gzip(view(text))) {
         const std::size_t most = std::max(kUnpackedBytes, kUnpackedRatio * text.size());
-        text = gunzip(text, path.string(), std::min(left, most));
+        text = gunzip(view(text), path.string(), std::min(left, most));
     }
     bytes_ += text.size();
     return text;
 }
 
+Document& Documents::parse_file(const fs::path& path) {
+    return parse(read_bytes(path), path.string(), path.parent_path());
+}
+
+Document& Documents::parse(Text text, const std::string& name, const fs::path& folder) {
+    Document& document = parse(view(text), name, folder);
+    if (document.views_text) document.text = std::move(text);
+    return document;
+}
+
 Document& Documents::parse(std::string_view text, const std::string& name, const fs::path& folder) {
     refuse_other_formats(text, name);
     Document& document = documents_.emplace_back(name, folder, messages_.is_strict());
-    document.root = &parse_xml(text, name, limits_, document.names, document.arena, progress_);
+    const ParsedXml parsed =
+        parse_xml(text, name, limits_, document.names, document.arena, progress_);
+    document.root = parsed.root;
+    document.views_text = parsed.views_text;
     messages_.add_document(name, *document.root);
     document.names.warn(messages_);
     document.scene = &find_scene(*document.root, messages_);
@@ -213,7 +231,7 @@ const Document* Documents::load_inline(const Element& node, const fs::path& fold
         if (open_.size() > kMaxInlineDepth)
             fields.refuse(
                 "url", "Inlines nested too deeply (limit " + std::to_string(kMaxInlineDepth) + ")");
-        Document& document = parse(read_bytes(*path), path->string(), path->parent_path());
+        Document& document = parse_file(*path);
         open_.push_back(canonical);
         link(document);
         open_.pop_back();
@@ -250,8 +268,7 @@ Prototype Documents::load_prototype(const Element& node, const fs::path& folder)
         if (!path) continue;
         const std::string canonical = fs::canonical(*path).string();
         const Document*& document = declaring_[canonical];
-        if (document == nullptr)
-            document = &parse(read_bytes(*path), path->string(), path->parent_path());
+        if (document == nullptr) document = &parse_file(*path);
         // Without a name behind a # the file's first prototype is meant.
         const std::size_t mark = url.find('#');
         const Element* found = document->first_declaration;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "extents.h"
+#include "gunzip.h"
 #include "messages.h"
 #include "names.h"
 #include "nuvo/scene/x3d.h"
@@ -26,6 +27,8 @@ struct Document {
     std::filesystem::path folder;  ///< what its urls are relative to
     Names names;
     ElementArena arena;
+    bool views_text = false;  ///< long values of attributes stand in the file's text
+    Text text;                ///< which is kept here then, unless it is the caller's
     Element* root = nullptr;
     const Element* scene = nullptr;  ///< root itself, or the Scene in it
     Version version;
@@ -62,9 +65,13 @@ class Documents {
     Prototype declared(Prototype prototype);
 
   private:
-    std::string read_bytes(const std::filesystem::path& path);
+    Text read_bytes(const std::filesystem::path& path);
+    Document& parse_file(const std::filesystem::path& path);
+    /// Without a copy of `text`, which must outlive the document.
     Document& parse(std::string_view text, const std::string& name,
                     const std::filesystem::path& folder);
+    /// Takes the text into the document, if that has need of it.
+    Document& parse(Text text, const std::string& name, const std::filesystem::path& folder);
     void link(Document& document);
     const Document* load_inline(const Element& node, const std::filesystem::path& folder);
     Prototype load_prototype(const Element& node, const std::filesystem::path& folder);

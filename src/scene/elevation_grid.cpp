@@ -6,7 +6,7 @@ namespace {
 
 /// A number of rows or columns.
 std::size_t read_dimension(const Fields& fields, std::string_view name) {
-    const std::vector<std::int32_t> values = fields.integers(name);
+    const Integers values = fields.integers(name);
     if (values.size() > 1) fields.fail(name, "is more than one number");
     if (values.empty()) return 0;
     if (values[0] < 0) fields.fail(name, "is negative");
@@ -22,7 +22,7 @@ void read_elevation_grid(MeshSource& source) {
     const double x_spacing = fields.positive_number("xSpacing", 1);
     const double z_spacing = fields.positive_number("zSpacing", 1);
     const double crease_angle = fields.number("creaseAngle", 0);
-    const std::vector<double> heights = fields.numbers("height");
+    const Numbers heights = fields.numbers("height");
     const std::size_t count = columns * rows;  // each below 2^31
     if (heights.size() < count)
         fields.fail("height", std::to_string(heights.size()) + " numbers where " +

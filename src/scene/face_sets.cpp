@@ -17,7 +17,7 @@ struct FaceNumbers {
 FaceNumbers read_faces(MeshSource& source) {
     const Fields& fields = source.fields;
     Polygons& polygons = source.polygons;
-    const std::vector<std::int32_t> indices = fields.integers("coordIndex");
+    const Integers indices = fields.integers("coordIndex");
     source.budget.take(indices.size(), fields);
     FaceNumbers numbers;
     std::uint32_t face = 0;
@@ -67,7 +67,7 @@ void append_checked_run(MeshSource& source, std::string_view field, bool strip, 
 /// IndexedTriangleStripSet and IndexedTriangleFanSet: -1 ends each run.
 void read_indexed_runs(MeshSource& source, bool strip) {
     const Fields& fields = source.fields;
-    const std::vector<std::int32_t> indices = fields.integers("index");
+    const Integers indices = fields.integers("index");
     source.budget.take(3 * indices.size(), fields);
     const std::size_t points = source.polygons.points.size();
     std::size_t begin = 0;
@@ -104,7 +104,7 @@ void read_counted_runs(MeshSource& source, bool strip) {
 void read_tuples(MeshSource& source, bool indexed, std::size_t corners) {
     const Fields& fields = source.fields;
     Polygons& polygons = source.polygons;
-    std::vector<std::int32_t> index;
+    Integers index;
     if (indexed) index = fields.integers("index");
     source.budget.take(index.size(), fields);
     const std::size_t points = polygons.points.size();

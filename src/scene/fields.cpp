@@ -10,7 +10,10 @@ namespace nuvo::x3d {
 
 namespace {
 
-bool is_separator(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == ','; }
+bool is_separator(char c) {
+    if (c > ',') return false;  // what numbers and names are made of
+    return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == ',';
+}
 
 /// X3D's numbers may begin with a plus, from_chars' may not.
 std::string_view without_plus(std::string_view word) {
@@ -47,19 +50,29 @@ NumberVerdict read(std::string_view word, std::int32_t& value) {
     return result.ec == std::errc{} ? NumberVerdict::kNumber : NumberVerdict::kOutOfRange;
 }
 
+/// Takes the number that `text` begins with off it where it is one in the plainest form; else
+/// leaves all as it is.
+template <typename T>
+bool take_number(std::string_view& text, T& value) {
+    if (!begins_a_number(text)) return false;
+    const char* const end = text.data() + text.size();
+    const auto [after, error] = std::from_chars(text.data(), end, value);
+    if (error != std::errc{} || (after != end && !is_separator(*after))) return false;
+    text.remove_prefix(static_cast<std::size_t>(after - text.data()));
+    return true;
+}
+
+void skip_separators(std::string_view& text) {
+    std::size_t begin = 0;
+    while (begin < text.size() && is_separator(text[begin])) ++begin;
+    text.remove_prefix(begin);
+}
+
 std::string in_quotes(std::string_view word) {
     std::string text = excerpt(word);
     text.insert(text.begin(), '"');
     text += '"';
     return text;
-}
-
-std::vector<Vector3> in_threes(const std::vector<double>& numbers) {
-    std::vector<Vector3> vectors;
-    vectors.reserve(numbers.size() / 3);
-    for (std::size_t i = 0; i + 2 < numbers.size(); i += 3)
-        vectors.push_back({numbers[i], numbers[i + 1], numbers[i + 2]});
-    return vectors;
 }
 
 std::string shown(double value) {
@@ -70,11 +83,10 @@ std::string shown(double value) {
 }  // namespace
 
 std::string_view next_word(std::string_view& text) {
-    std::size_t begin = 0;
-    while (begin < text.size() && is_separator(text[begin])) ++begin;
-    std::size_t end = begin;
+    skip_separators(text);
+    std::size_t end = 0;
     while (end < text.size() && !is_separator(text[end])) ++end;
-    const std::string_view word = text.substr(begin, end - begin);
+    const std::string_view word = text.substr(0, end);
     text.remove_prefix(end);
     return word;
 }
@@ -121,24 +133,26 @@ bool Fields::read_word(std::string_view name, std::string_view word, T& value) c
 }
 
 template <typename T>
-std::vector<T> Fields::words(std::string_view name) const {
-    std::vector<T> values;
+BigVector<T> Fields::words(std::string_view name) const {
+    BigVector<T> values;
     const std::string_view* text = element_.find(name);
     if (text == nullptr) return values;
+    constexpr std::size_t kSample = 256;
     std::string_view rest = *text;
-    for (std::string_view word = next_word(rest); !word.empty(); word = next_word(rest)) {
+    for (skip_separators(rest); !rest.empty(); skip_separators(rest)) {
         T value{};
-        if (!read_word(name, word, value)) return {};
+        if (!take_number(rest, value) && !read_word(name, next_word(rest), value)) return {};
         values.push_back(value);
+        // Room for as many as the first ones tell of: what is never used is never touched.
+        if (values.size() == kSample)
+            values.reserve(kSample * text->size() / (text->size() - rest.size()) + kSample);
     }
     return values;
 }
 
-std::vector<double> Fields::numbers(std::string_view name) const { return words<double>(name); }
+Numbers Fields::numbers(std::string_view name) const { return words<double>(name); }
 
-std::vector<std::int32_t> Fields::integers(std::string_view name) const {
-    return words<std::int32_t>(name);
-}
+Integers Fields::integers(std::string_view name) const { return words<std::int32_t>(name); }
 
 std::vector<std::string> Fields::strings(std::string_view name) const {
     std::vector<std::string> values;
@@ -239,8 +253,8 @@ Vector3 Fields::clamped_vector(std::string_view name, const Vector3& fallback, R
     return clamped;
 }
 
-std::vector<double> Fields::clamped_numbers(std::string_view name, Range range) const {
-    std::vector<double> values = numbers(name);
+Numbers Fields::clamped_numbers(std::string_view name, Range range) const {
+    Numbers values = numbers(name);
     for (double& value : values) {
         const double clamped = range.nearest(value);
         if (clamped != value) warn_clamped(name, range);
@@ -260,12 +274,17 @@ std::vector<Color> Fields::colors(std::string_view name) const {
 }
 
 std::vector<Vector3> Fields::vectors(std::string_view name) const {
-    return in_threes(whole(name, 3, "triples", "triple"));
+    const Numbers values = whole(name, 3, "triples", "triple");
+    std::vector<Vector3> vectors;
+    vectors.reserve(values.size() / 3);
+    for (std::size_t i = 0; i < values.size(); i += 3)
+        vectors.push_back({values[i], values[i + 1], values[i + 2]});
+    return vectors;
 }
 
-std::vector<double> Fields::whole(std::string_view name, std::size_t size, const char* plural,
-                                  const char* single) const {
-    std::vector<double> values = numbers(name);
+Numbers Fields::whole(std::string_view name, std::size_t size, const char* plural,
+                      const char* single) const {
+    Numbers values = numbers(name);
     const std::size_t over = values.size() % size;
     if (over == 0) return values;
     if (messages_.is_strict())
@@ -276,7 +295,7 @@ std::vector<double> Fields::whole(std::string_view name, std::size_t size, const
 }
 
 std::vector<Vector3> Fields::pairs(std::string_view name) const {
-    const std::vector<double> values = whole(name, 2, "pairs", "pair");
+    const Numbers values = whole(name, 2, "pairs", "pair");
     std::vector<Vector3> pairs;
     for (std::size_t i = 0; i < values.size(); i += 2)
         pairs.push_back({values[i], 0, values[i + 1]});
@@ -284,7 +303,7 @@ std::vector<Vector3> Fields::pairs(std::string_view name) const {
 }
 
 std::vector<Matrix3> Fields::rotations(std::string_view name) const {
-    const std::vector<double> values = whole(name, 4, "rotations", "rotation");
+    const Numbers values = whole(name, 4, "rotations", "rotation");
     std::vector<Matrix3> matrices;
     for (std::size_t i = 0; i < values.size(); i += 4)
         matrices.push_back(

@@ -9,6 +9,7 @@
 
 #include "messages.h"
 #include "nuvo/math/affine.h"
+#include "nuvo/math/big_vector.h"
 
 namespace nuvo::x3d {
 
@@ -27,6 +28,10 @@ inline constexpr Range kNotNegative{0, std::numeric_limits<double>::infinity()};
 
 /// Takes the next word off `text`; empty at the end. Blanks, line breaks and commas part words.
 std::string_view next_word(std::string_view& text);
+
+/// Lists of numbers, which may be long.
+using Numbers = BigVector<double>;
+using Integers = BigVector<std::int32_t>;
 
 enum class NumberVerdict { kNumber, kNotANumber, kOutOfRange };
 
@@ -56,19 +61,19 @@ class Fields {
     /// Outside its range a value is clamped, with a warning.
     double clamped_number(std::string_view name, double fallback, Range range) const;
     Vector3 clamped_vector(std::string_view name, const Vector3& fallback, Range range) const;
-    std::vector<double> clamped_numbers(std::string_view name, Range range) const;
+    Numbers clamped_numbers(std::string_view name, Range range) const;
     std::vector<Color> colors(std::string_view name) const;
 
     /// Two numbers (SFVec2f).
     std::array<double, 2> pair(std::string_view name, double first, double second) const;
 
-    std::vector<double> numbers(std::string_view name) const;
+    Numbers numbers(std::string_view name) const;
     /// An MFVec2f, each pair as x and z.
     std::vector<Vector3> pairs(std::string_view name) const;
     /// An MFRotation as matrices.
     std::vector<Matrix3> rotations(std::string_view name) const;
     std::vector<Vector3> vectors(std::string_view name) const;
-    std::vector<std::int32_t> integers(std::string_view name) const;
+    Integers integers(std::string_view name) const;
     /// An MFString: its quoted strings, or without quotes its words.
     std::vector<std::string> strings(std::string_view name) const;
 
@@ -96,13 +101,13 @@ class Fields {
     bool read_word(std::string_view name, std::string_view word, T& value) const;
     /// The words of a field; none where one of them is rejected.
     template <typename T>
-    std::vector<T> words(std::string_view name) const;
+    BigVector<T> words(std::string_view name) const;
     /// Reads the field's numbers; false, and `values` as they were, when it is not given.
     template <std::size_t N>
     bool tuple(std::string_view name, std::array<double, N>& values) const;
     /// The field's numbers without an incomplete last one of `size` numbers each.
-    std::vector<double> whole(std::string_view name, std::size_t size, const char* plural,
-                              const char* single) const;
+    Numbers whole(std::string_view name, std::size_t size, const char* plural,
+                  const char* single) const;
     void warn_clamped(std::string_view name, Range range) const;
 
     const Element& element_;

@@ -35,11 +35,11 @@ class Inflater {
 
 bool is_gzip(std::string_view bytes) { return bytes.starts_with("\x1f\x8b"); }
 
-std::string gunzip(std::string_view bytes, const std::string& file, std::size_t limit) {
+Text gunzip(std::string_view bytes, const std::string& file, std::size_t limit) {
     Inflater inflater;
     z_stream& stream = inflater.stream();
-    std::string text;
-    std::vector<Bytef> block(kBlock);
+    Text text;
+    std::vector<char> block(kBlock);
     std::size_t next = 0;
     for (;;) {
         if (stream.avail_in == 0) {
@@ -50,7 +50,7 @@ std::string gunzip(std::string_view bytes, const std::string& file, std::size_t 
             stream.avail_in = static_cast<uInt>(size);
             next += size;
         }
-        stream.next_out = block.data();
+        stream.next_out = reinterpret_cast<Bytef*>(block.data());
         stream.avail_out = static_cast<uInt>(block.size());
         const int status = inflate(&stream, Z_NO_FLUSH);
         if (status == Z_MEM_ERROR) throw std::bad_alloc();
@@ -60,7 +60,7 @@ std::string gunzip(std::string_view bytes, const std::string& file, std::size_t 
         if (size > limit - text.size())
             throw Error(file + ": unpacks to more bytes than allowed (limit " +
                         std::to_string(limit) + ")");
-        text.append(reinterpret_cast<const char*>(block.data()), size);
+        text.insert(text.end(), block.data(), block.data() + size);
         if (status == Z_STREAM_END) {
             const std::string_view rest = bytes.substr(next - stream.avail_in);
             if (!is_gzip(rest)) return text;  // gzip itself ignores what follows, too

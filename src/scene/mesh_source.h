@@ -37,8 +37,8 @@ std::uint32_t checked(std::int64_t index, std::size_t count, const Fields& field
 
 /// How a list of values is spread over polygons (ISO/IEC 19775-1 clauses 11 and 13).
 struct Spread {
-    bool per_vertex = true;           ///< else one value per polygon
-    std::vector<std::int32_t> index;  ///< into the values; empty: by the points, or in order
+    bool per_vertex = true;  ///< else one value per polygon
+    Integers index;          ///< into the values; empty: by the points, or in order
     /// For polygons of an IndexedFaceSet: per polygon its number among all faces, and per corner
     /// its place in coordIndex. Empty: the polygons' own order.
     const std::vector<std::uint32_t>* faces = nullptr;

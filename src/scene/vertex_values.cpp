@@ -102,7 +102,7 @@ void assign(MeshSource& source, const Spread& spread, CornerValues& values, cons
 
 /// ColorRGBA's colors; what is not opaque is drawn opaque.
 std::vector<Color> read_rgba(const Fields& fields) {
-    const std::vector<double> numbers = fields.clamped_numbers("color", kUnit);
+    const Numbers numbers = fields.clamped_numbers("color", kUnit);
     if (numbers.size() % 4 != 0) {
         if (fields.is_strict())
             fields.refuse("color",

@@ -26,12 +26,12 @@ void match(const Fields& fields, std::string_view angle_field, std::vector<Color
 
 /// The extents that an OrthoViewpoint shows: left, bottom, right, top.
 OrthoWindow read_window(const Fields& fields, double scale) {
-    const auto window = [scale](const std::vector<double>& sides) {
+    const auto window = [scale](const Numbers& sides) {
         return OrthoWindow{{sides[0] * scale, sides[1] * scale},
                            {sides[2] * scale, sides[3] * scale}};
     };
     const OrthoWindow standard = window({-1, -1, 1, 1});
-    const std::vector<double> sides = fields.numbers("fieldOfView");
+    const Numbers sides = fields.numbers("fieldOfView");
     if (sides.empty()) return standard;
     constexpr std::size_t kSides = 4;
     if (sides.size() == kSides) {
@@ -94,9 +94,11 @@ Background read_background(const Fields& fields) {
     Background background;
     if (fields.has("skyColor")) background.sky_color = fields.colors("skyColor");
     if (background.sky_color.empty()) background.sky_color = {{0, 0, 0}};
-    background.sky_angle = fields.clamped_numbers("skyAngle", {0, std::numbers::pi});
+    const Numbers sky = fields.clamped_numbers("skyAngle", {0, std::numbers::pi});
+    background.sky_angle.assign(sky.begin(), sky.end());
     background.ground_color = fields.colors("groundColor");
-    background.ground_angle = fields.clamped_numbers("groundAngle", {0, std::numbers::pi / 2});
+    const Numbers ground = fields.clamped_numbers("groundAngle", {0, std::numbers::pi / 2});
+    background.ground_angle.assign(ground.begin(), ground.end());
     match(fields, "skyAngle", background.sky_color, background.sky_angle);
     match(fields, "groundAngle", background.ground_color, background.ground_angle);
     for (const char* picture :

@@ -9,10 +9,15 @@
 
 namespace nuvo::x3d {
 
+struct ParsedXml {
+    Element* root;
+    bool views_text;  ///< long values of attributes stand in the text, which must live as long
+};
+
 /// Reads an XML document into a tree of elements, whose depth is within `limits`, who live in
-/// `arena` and whose names are kept in `names`. `file` stands for the document in messages. Returns
-/// the root. Throws Error.
-Element& parse_xml(std::string_view text, const std::string& file, const Limits& limits,
-                   Names& names, ElementArena& arena, Progress* progress);
+/// `arena` and whose names are kept in `names`. `file` stands for the document in messages. Throws
+/// Error.
+ParsedXml parse_xml(std::string_view text, const std::string& file, const Limits& limits,
+                    Names& names, ElementArena& arena, Progress* progress);
 
 }  // namespace nuvo::x3d

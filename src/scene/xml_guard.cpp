@@ -11,6 +11,9 @@ namespace {
 /// Siblings are gathered into runs of up to this many bytes; the parser needs up to 100 times that.
 constexpr std::size_t kRunBytes = 32 * 1024;
 
+/// From so many bytes on it pays to keep a value from the parser, which copies it twice.
+constexpr std::size_t kLongValue = 1024;
+
 /// A run nests up to this many levels: the parser recurses, and it is not ours to give it the
 /// stack.
 constexpr std::size_t kRunLevels = 128;
@@ -52,7 +55,7 @@ class Guard {
         if (!open_.empty())
             fail(open_.back().line, "<" + excerpt(open_.back().name) + "> is never closed");
         if (top_.empty()) throw Error(file_ + ": empty file: no root element");
-        return {std::move(top_.front()), std::move(lines_)};
+        return {std::move(top_.front()), std::move(lines_), std::move(long_values_)};
     }
 
   private:
@@ -206,10 +209,11 @@ class Guard {
         if (quote != '"' && quote != '\'')
             fail("the value of the attribute " + excerpt(attribute) + " is not in quotes");
         const std::size_t end = text_.find(quote, position_ + 1);
-        const std::size_t length = std::min(end, text_.size()) - position_;
-        if (end == std::string_view::npos ||
-            text_.substr(position_, length).find('<') != std::string_view::npos)
+        const std::string_view value = text_.substr(position_ + 1, end - position_ - 1);
+        if (end == std::string_view::npos || value.find('<') != std::string_view::npos)
             fail("the value of the attribute " + excerpt(attribute) + " has no closing quote");
+        if (value.size() >= kLongValue && value.find('&') == std::string_view::npos)
+            long_values_.push_back({attributes_ - 1, value});
         advance_to(end + 1);
     }
 
@@ -261,6 +265,7 @@ class Guard {
     std::vector<OpenElement> open_;
     std::vector<Outline> top_;
     std::vector<std::uint32_t> lines_;
+    std::vector<LongValue> long_values_;
     std::size_t attributes_ = 0;
     std::vector<std::string_view> names_;  // of one element's attributes
 };

@@ -19,9 +19,16 @@ struct Outline {
     std::vector<Outline> parts;  ///< what stands inside that element, in order
 };
 
+/// A value of many bytes that stands in the document as it is meant: no parser need see it.
+struct LongValue {
+    std::size_t attribute;  ///< whose it is: their number in document order, from 0
+    std::string_view text;
+};
+
 struct GuardedDocument {
     Outline root;
-    std::vector<std::uint32_t> lines;  ///< of every start tag, in document order
+    std::vector<std::uint32_t> lines;    ///< of every start tag, in document order
+    std::vector<LongValue> long_values;  ///< in document order
 };
 
 /// One pass over the bytes that refuses what the parser would accept without a word (mismatched or

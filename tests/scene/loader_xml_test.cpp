@@ -24,6 +24,47 @@ TEST(LoaderXml, TakesWhatXmlAllowsAroundAndInsideTheRoot) {
     EXPECT_EQ(std::get<Sphere>(scene.objects[0].shape).radius, 2);
 }
 
+/// A file of one triangle whose corners stand behind so many blanks.
+std::string behind_blanks(const std::string& blanks, const std::string& more = "") {
+    return "<Scene><Shape><IndexedFaceSet coordIndex='" + blanks + "0 1 2'><Coordinate point='" +
+           blanks + "1 2 3 4 5 6\t7,8\r\n10" + more +
+           "'/></IndexedFaceSet><Appearance><Material diffuseColor='.5 .25 0'/></Appearance>"
+           "</Shape></Scene>";
+}
+
+TEST(LoaderXml, ValuesOfAnyLengthAreRead) {
+    for (const std::size_t length : {0, 1, 900, 1000, 1023, 1024, 1025, 5000, 100'000}) {
+        // Where there is a reference the value is not the text of the file.
+        for (const char* more : {"", "&#32;", " &#49;&#32;2 3", "&#9;"}) {
+            const Scene scene = load(behind_blanks(std::string(length, ' '), more));
+            EXPECT_EQ(scene.warnings, std::vector<std::string>{});
+            ASSERT_EQ(scene.objects.size(), 1u) << length << more;
+            const auto& mesh = std::get<TriangleMesh>(scene.objects[0].shape);
+            EXPECT_EQ(mesh.positions, (std::vector<Point3>{{1, 2, 3}, {4, 5, 6}, {7, 8, 10}}))
+                << length << more;
+            EXPECT_EQ(mesh.triangles, (std::vector<IndexTriple>{{0, 1, 2}}));
+            EXPECT_EQ(scene.materials.at(scene.objects[0].material).diffuse_color,
+                      (Color{0.5, 0.25, 0}));
+        }
+    }
+}
+
+TEST(LoaderXml, LinesAreCountedThroughLongValues) {
+    for (const std::size_t lines : {1, 1500}) {
+        const std::string head = "<Scene><Shape DEF='" + std::string(lines, '\n');
+        const std::string line = "scene.x3d: line " + std::to_string(lines + 2) + ": ";
+        // In a run of elements, and in the tag of an element that is too large for one.
+        for (const std::size_t inside : {0, 50'000}) {
+            const std::string more = std::string(inside, ' ') + "<Sphere/></Shape></Scene>";
+            EXPECT_EQ(refusal(head + "'\n USE='&#x110000;'>" + more),
+                      line + "not XML: invalid numeric character entity");
+            EXPECT_EQ(refusal(head + "'\n USE='&#50'>" + more), line + "not XML: expected ;");
+        }
+        EXPECT_EQ(refusal(head + "'>\n<Sphere></Shape></Scene>"),
+                  line + "</Shape> closes <Sphere> of line " + std::to_string(lines + 2));
+    }
+}
+
 TEST(LoaderXml, RefusesWhatIsNotXml) {
     EXPECT_EQ(refusal(""), "scene.x3d: empty file: no root element");
     EXPECT_EQ(refusal(" \n\t\n"), "scene.x3d: empty file: no root element");
