@@ -63,6 +63,8 @@ class InterleavedRays {
     }
 
   private:
+    using NodeFloats = Lanes<float, kWideLanes>;
+    using NodeInts = Lanes<std::int32_t, kWideLanes>;
     static constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
     // The rays in one state. Read from the front while it is filled anew.
@@ -133,31 +135,29 @@ class InterleavedRays {
         const RayBlock& ray = block_of(state);
         const std::size_t lane = state.index % RayBlock::kRays;
         const FacesOnRay& faces = kFacesBySigns[state.signs];
-        Floats first(0.0F);
-        Floats last(state.best);
+        NodeFloats first(0.0F);
+        NodeFloats last(state.best);
         for (int axis = 0; axis < 3; ++axis) {
-            const Floats inverse(ray.inverse[axis][lane]);
-            first = max(mul_add(Floats::load(node.face + faces.near[axis]), inverse,
-                                Floats(ray.near_add[axis][lane])),
+            const NodeFloats inverse(ray.inverse[axis][lane]);
+            first = max(mul_add(NodeFloats::load(node.face + faces.near[axis]), inverse,
+                                NodeFloats(ray.near_add[axis][lane])),
                         first);
-            last = min(mul_add(Floats::load(node.face + faces.far[axis]), inverse,
-                               Floats(ray.far_add[axis][lane])),
+            last = min(mul_add(NodeFloats::load(node.face + faces.far[axis]), inverse,
+                               NodeFloats(ray.far_add[axis][lane])),
                        last);
         }
-        const Ints order = lanes_of(node.order[state.signs]);
-        const Floats entry = first.permuted(order);
+        alignas(64) static constexpr std::int32_t kShift[kWideLanes] = {0,  4,  8,  12,
+                                                                        16, 20, 24, 28};
+        const NodeInts order =
+            NodeInts(static_cast<std::int32_t>(node.order[state.signs])) >> NodeInts::load(kShift);
+        const NodeFloats entry = first.permuted(order);
         RayState::Level& level = *state.top;
         entry.store(level.entry);
-        Ints::load(reinterpret_cast<const std::int32_t*>(node.child))
+        NodeInts::load(reinterpret_cast<const std::int32_t*>(node.child))
             .permuted(order)
             .store(reinterpret_cast<std::int32_t*>(level.child));
         level.waiting = (entry <= last.permuted(order)).bits();
         state.top += static_cast<std::ptrdiff_t>(level.waiting != 0);
-    }
-    static HWY_INLINE Ints lanes_of(const std::uint32_t* order) {
-        alignas(64) static constexpr std::int32_t kShift[kWideLanes] = {
-            0, 0, 4, 4, 8, 8, 12, 12, 16, 16, 20, 20, 24, 24, 28, 28};
-        return Ints::pairs(order) >> Ints::load(kShift);
     }
 
     HWY_INLINE void test_leaf(RayState& state) const {
@@ -188,12 +188,12 @@ class InterleavedRays {
             return behind;
         }
         const RayAtLeaf at(ray, lane, head, state.next_entry);
-        for (std::uint32_t i = 0; i < triangles; i += kWideLanes)
+        for (std::uint32_t i = 0; i < triangles; i += kLeafLanes)
             take(state, at,
                  test_triangles(at, corners + i, triangles, triangles - i, front_only(slots + i),
                                 rays_.bounds_scale()),
                  slots + i, triangles - i);
-        for (std::uint32_t i = 0; i < spheres; i += kWideLanes)
+        for (std::uint32_t i = 0; i < spheres; i += kLeafLanes)
             take(state, at,
                  test_spheres(at, centers + i, spheres, spheres - i,
                               front_only(slots + triangles + i), rays_.bounds_scale()),
@@ -205,18 +205,18 @@ class InterleavedRays {
     HWY_INLINE void take(RayState& state, const RayAtLeaf& at, const LeafHits& hits,
                          const Slot* slots, std::uint32_t count) const {
         const std::uint32_t lanes = first_lanes(count);
-        const Floats behind(at.behind);
-        const RayMask nearer = hits.low <= Floats(state.best);
-        const RayMask sure = hits.sure & (hits.low > behind);
-        const RayMask perhaps = (hits.sure | hits.open) & nearer & (hits.high >= behind);
+        const LeafFloats behind(at.behind);
+        const LeafMask nearer = hits.low <= LeafFloats(state.best);
+        const LeafMask sure = hits.sure & (hits.low > behind);
+        const LeafMask perhaps = (hits.sure | hits.open) & nearer & (hits.high >= behind);
         const std::uint32_t kept = perhaps.bits() & lanes;
         if (kept != 0) keep(state, hits, slots, sure.bits(), kept);
     }
 
     HWY_NOINLINE void keep(RayState& state, const LeafHits& hits, const Slot* slots,
                            std::uint32_t sure, std::uint32_t kept) const {
-        alignas(64) float low[kWideLanes];
-        alignas(64) float high[kWideLanes];
+        alignas(64) float low[kLeafLanes];
+        alignas(64) float high[kLeafLanes];
         hits.low.store(low);
         hits.high.store(high);
         for (; kept != 0; kept &= kept - 1) {
@@ -233,7 +233,7 @@ class InterleavedRays {
     HWY_INLINE void drop_levels(RayState& state) const {
         RayState::Level* free = state.levels + 1;
         for (RayState::Level* level = free; level != state.top; ++level) {
-            level->waiting &= (Floats::load(level->entry) <= Floats(state.best)).bits();
+            level->waiting &= (NodeFloats::load(level->entry) <= NodeFloats(state.best)).bits();
             if (level->waiting == 0) continue;
             if (level != free) *free = *level;
             ++free;

@@ -135,7 +135,37 @@ void SingleRays::set_pair(TriangleRoots& roots, std::size_t i, const Ray& ray, S
     roots.front_only = mesh.front_only ? roots.front_only | bit : roots.front_only & ~bit;
 }
 
+// Each step asks for memory by what the one before has fetched: for all rays a step before the
+// next.
+inline void SingleRays::prefetch(std::span<const Slot> found) const {
+    std::array<const PrimitiveSource*, kRayBatch> sources;
+    std::size_t count = 0;
+    for (const Slot slot : found) {
+        if (slot == kNoSlot) continue;
+        sources[count] = &scene_.source(slot);
+        __builtin_prefetch(sources[count++]);
+    }
+    const std::span known(sources.data(), count);
+    for (const PrimitiveSource* source : known) {
+        const MeshPlace& mesh = meshes_[source->object];
+        if (mesh.triangles != nullptr) {
+            __builtin_prefetch(mesh.triangles + source->triangle);
+        } else {
+            const Object* const object = &scene_.scene().objects[source->object];
+            __builtin_prefetch(object);
+            __builtin_prefetch(reinterpret_cast<const char*>(object + 1) - 1);
+        }
+    }
+    for (const PrimitiveSource* source : known) {
+        const MeshPlace& mesh = meshes_[source->object];
+        if (mesh.triangles == nullptr) continue;
+        for (const auto corner : mesh.triangles[source->triangle])
+            __builtin_prefetch(mesh.positions + corner);
+    }
+}
+
 void SingleRays::answer(std::span<const Ray> rays, const Slot* found, RayAnswer* answers) const {
+    prefetch({found, rays.size()});
     TriangleRoots roots;
     std::array<std::size_t, TriangleRoots::kCount> ray_of;
     std::size_t count = 0;

@@ -70,6 +70,8 @@ class SingleRays {
     /// these are sure.
     std::optional<Nearest> nearest_of(const Ray& ray, std::span<Slot> slots) const;
     std::optional<Nearest> exactly_nearest_of(const Ray& ray, std::span<const Slot> slots) const;
+    // As a function of its own g++ takes it for one without effects, and leaves it out.
+    [[gnu::always_inline]] void prefetch(std::span<const Slot> found) const;
     void set_pair(TriangleRoots& roots, std::size_t i, const Ray& ray, Slot slot) const;
 
     const FastScene& scene_;

@@ -13,7 +13,7 @@
 #include "fast/rays/wide_octree.h"
 #include "fast/simd/lanes.h"
 
-// One ray against 16 primitives of a leaf. The ray is seen from the point where it enters the
+// One ray against 8 primitives of a leaf. The ray is seen from the point where it enters the
 // leaf's box, in units of the leaf's grid on each axis, so that all numbers are small whatever the
 // distance, and flat leaves keep their digits.
 //
@@ -25,38 +25,42 @@
 HWY_BEFORE_NAMESPACE();
 namespace nuvo::HWY_NAMESPACE {
 
+using LeafFloats = Lanes<float, kLeafLanes>;
+using LeafMask = LaneMask<float, kLeafLanes>;
+using LeafInts = Lanes<std::int32_t, kLeafLanes>;
+
 inline constexpr float kReach = 0x1p16F + 0x1p14F;
 inline constexpr float kCorner = 0.5625F;
 static_assert(kCornerRounding + 0x1p-6 + 4 * kFloatRoundoff * kReach < kCorner);
 
-/// What is known of 16 primitives: [low, high] bounds the hit's parameter where it is met.
+/// What is known of 8 primitives: [low, high] bounds the hit's parameter where it is met.
 struct LeafHits {
-    RayMask sure;
-    RayMask open;  ///< neither surely met nor surely missed
-    Floats low;
-    Floats high;
+    LeafMask sure;
+    LeafMask open;  ///< neither surely met nor surely missed
+    LeafFloats low;
+    LeafFloats high;
 
     static HWY_INLINE LeafHits none() {
-        return {RayMask::from_bits(0), RayMask::from_bits(0), Floats(0.0F), Floats(0.0F)};
+        return {LeafMask::from_bits(0), LeafMask::from_bits(0), LeafFloats(0.0F), LeafFloats(0.0F)};
     }
 };
 
-struct Vector16 {
-    Floats x, y, z;
-    friend HWY_INLINE Vector16 operator-(const Vector16& a, const Vector16& b) {
+struct LeafVector {
+    LeafFloats x, y, z;
+    friend HWY_INLINE LeafVector operator-(const LeafVector& a, const LeafVector& b) {
         return {a.x - b.x, a.y - b.y, a.z - b.z};
     }
-    friend HWY_INLINE Vector16 cross(const Vector16& a, const Vector16& b) {
+    friend HWY_INLINE LeafVector cross(const LeafVector& a, const LeafVector& b) {
         return {neg_mul_add(a.z, b.y, a.y * b.z), neg_mul_add(a.x, b.z, a.z * b.x),
                 neg_mul_add(a.y, b.x, a.x * b.y)};
     }
-    friend HWY_INLINE Floats dot(const Vector16& a, const Vector16& b) {
+    friend HWY_INLINE LeafFloats dot(const LeafVector& a, const LeafVector& b) {
         return mul_add(a.z, b.z, mul_add(a.y, b.y, a.x * b.x));
     }
-    friend HWY_INLINE Floats norm(const Vector16& a) {
+    friend HWY_INLINE LeafFloats norm(const LeafVector& a) {
         return max(abs(a.x), max(abs(a.y), abs(a.z)));
     }
-    friend HWY_INLINE Floats sum(const Vector16& a) { return abs(a.x) + abs(a.y) + abs(a.z); }
+    friend HWY_INLINE LeafFloats sum(const LeafVector& a) { return abs(a.x) + abs(a.y) + abs(a.z); }
 };
 
 /// For exponents of normal numbers.
@@ -67,7 +71,7 @@ HWY_INLINE double power_of_two(int exponent) {
 }
 /// The first `count` lanes, or all.
 HWY_INLINE std::uint32_t first_lanes(std::uint32_t count) {
-    return count < kWideLanes ? (1U << count) - 1 : 0xffffU;
+    return count < kLeafLanes ? (1U << count) - 1 : (1U << kLeafLanes) - 1;
 }
 
 /// A ray at one leaf.
@@ -92,10 +96,12 @@ struct RayAtLeaf {
         step_sum = sum * (1 + 0x1p-20F);
     }
     /// Bounds on s from `along`, known within `error`.
-    HWY_INLINE void set_interval(LeafHits& hits, const Floats& along, const Floats& error) const {
+    HWY_INLINE void set_interval(LeafHits& hits, const LeafFloats& along,
+                                 const LeafFloats& error) const {
         // A sum, and the sums here: less than 4 roundings.
-        const Floats s = along + Floats(entry);
-        const Floats slack = mul_add(abs(s) + Floats(entry), Floats(4 * kFloatRoundoff), error);
+        const LeafFloats s = along + LeafFloats(entry);
+        const LeafFloats slack =
+            mul_add(abs(s) + LeafFloats(entry), LeafFloats(4 * kFloatRoundoff), error);
         hits.low = s - slack;
         hits.high = s + slack;
     }
@@ -111,18 +117,19 @@ struct RayAtLeaf {
     float at[3];    ///< the same on the leaf's grid
 };
 
-/// 16 corners of the leaf's triangles, seen from the ray's point.
-HWY_INLINE Vector16 load_corner(const std::uint16_t* corners, std::size_t stride, int corner,
-                                const RayAtLeaf& ray) {
+/// 8 corners of the leaf's triangles, seen from the ray's point.
+HWY_INLINE LeafVector load_corner(const std::uint16_t* corners, std::size_t stride, int corner,
+                                  const RayAtLeaf& ray) {
     const std::uint16_t* const x = corners + static_cast<std::size_t>(3 * corner) * stride;
-    return {Floats::from_shorts(x) - Floats(ray.at[0]),
-            Floats::from_shorts(x + stride) - Floats(ray.at[1]),
-            Floats::from_shorts(x + 2 * stride) - Floats(ray.at[2])};
+    return {LeafFloats::from_shorts(x) - LeafFloats(ray.at[0]),
+            LeafFloats::from_shorts(x + stride) - LeafFloats(ray.at[1]),
+            LeafFloats::from_shorts(x + 2 * stride) - LeafFloats(ray.at[2])};
 }
 
-/// Which of 16 slots of a leaf have a back that is invisible.
-HWY_INLINE RayMask front_only(const Slot* slots) {
-    return mask_for<float>(Ints::load(reinterpret_cast<const std::int32_t*>(slots)) < Ints(0));
+/// Which of 8 slots of a leaf have a back that is invisible.
+HWY_INLINE LeafMask front_only(const Slot* slots) {
+    return mask_for<float>(LeafInts::load(reinterpret_cast<const std::int32_t*>(slots)) <
+                           LeafInts(0));
 }
 
 /// Triangles whose nine coordinates stand `stride` apart from `corners` on. The sum of the edge
@@ -135,47 +142,50 @@ HWY_INLINE RayMask front_only(const Slot* slots) {
 /// max(|e1|, |e2|), L <= M; d . n by k |d|_1 and n . a by k |a|_1 + e |n|_1, with three roundings
 /// more of the terms, which the ninth e covers (9 instead of 8.5; 4 u M^2 < 0.02 e M).
 HWY_INLINE LeafHits test_triangles(const RayAtLeaf& ray, const std::uint16_t* corners,
-                                   std::size_t stride, std::uint32_t count, const RayMask& front,
+                                   std::size_t stride, std::uint32_t count, const LeafMask& front,
                                    float scale) {
-    const Vector16 a = load_corner(corners, stride, 0, ray);
-    const Vector16 b = load_corner(corners, stride, 1, ray);
-    const Vector16 c = load_corner(corners, stride, 2, ray);
-    const Vector16 d = {Floats(ray.step[0]), Floats(ray.step[1]), Floats(ray.step[2])};
-    const Vector16 dc = cross(d, c);
-    const Floats u = dot(b, dc);
-    const Floats v = -dot(a, dc);
-    const Floats w = dot(a, cross(d, b));
+    const LeafVector a = load_corner(corners, stride, 0, ray);
+    const LeafVector b = load_corner(corners, stride, 1, ray);
+    const LeafVector c = load_corner(corners, stride, 2, ray);
+    const LeafVector d = {LeafFloats(ray.step[0]), LeafFloats(ray.step[1]),
+                          LeafFloats(ray.step[2])};
+    const LeafVector dc = cross(d, c);
+    const LeafFloats u = dot(b, dc);
+    const LeafFloats v = -dot(a, dc);
+    const LeafFloats w = dot(a, cross(d, b));
     constexpr float kEdge =
         4 * kCorner * kReach + 2 * kCorner * kCorner + 18 * kFloatRoundoff * kReach * kReach;
-    const Floats edge_error(scale * kEdge * (1 + 8 * kFloatRoundoff) * ray.step_sum);
-    const Floats least = min(u, min(v, w));
-    const Floats most = max(u, max(v, w));
-    const RayMask inside = (least > edge_error) | without(most < -edge_error, front);
-    const RayMask outside = (least < -edge_error) & ((most > edge_error) | front);
+    const LeafFloats edge_error(scale * kEdge * (1 + 8 * kFloatRoundoff) * ray.step_sum);
+    const LeafFloats least = min(u, min(v, w));
+    const LeafFloats most = max(u, max(v, w));
+    const LeafMask inside = (least > edge_error) | without(most < -edge_error, front);
+    const LeafMask outside = (least < -edge_error) & ((most > edge_error) | front);
     LeafHits hits = LeafHits::none();
     if (((~outside).bits() & first_lanes(count)) == 0) return hits;
 
-    const Vector16 e1 = b - a;
-    const Vector16 e2 = c - a;
-    const Vector16 n = cross(e1, e2);
-    const Floats height = dot(n, a);
-    const Floats slope = dot(n, d);
-    const Floats k = (max(norm(e1), norm(e2)) + Floats(kCorner)) * Floats(scale * 9 * kCorner);
-    const Floats height_error = mul_add(k, sum(a), sum(n) * Floats(scale * kCorner));
-    const Floats slope_error = k * Floats(ray.step_sum);
-    const Floats inverse = Floats(1.0F) / slope;
-    const Floats along = height * inverse;
+    const LeafVector e1 = b - a;
+    const LeafVector e2 = c - a;
+    const LeafVector n = cross(e1, e2);
+    const LeafFloats height = dot(n, a);
+    const LeafFloats slope = dot(n, d);
+    const LeafFloats k =
+        (max(norm(e1), norm(e2)) + LeafFloats(kCorner)) * LeafFloats(scale * 9 * kCorner);
+    const LeafFloats height_error = mul_add(k, sum(a), sum(n) * LeafFloats(scale * kCorner));
+    const LeafFloats slope_error = k * LeafFloats(ray.step_sum);
+    const LeafFloats inverse = LeafFloats(1.0F) / slope;
+    const LeafFloats along = height * inverse;
     // 1 / (1 - share) <= 1 + 2 share for a share of at most 1/2.
-    const Floats share = slope_error * abs(inverse);
-    const RayMask crossing = share < Floats(0.5F);
+    const LeafFloats share = slope_error * abs(inverse);
+    const LeafMask crossing = share < LeafFloats(0.5F);
     // Room for the roundings of the bound itself, and of the product above.
-    const Floats error = mul_add(abs(along), slope_error, height_error) * abs(inverse) *
-                             mul_add(share, Floats(2.0F), Floats(1 + 16 * kFloatRoundoff)) +
-                         abs(along) * Floats(4 * kFloatRoundoff);
+    const LeafFloats error =
+        mul_add(abs(along), slope_error, height_error) * abs(inverse) *
+            mul_add(share, LeafFloats(2.0F), LeafFloats(1 + 16 * kFloatRoundoff)) +
+        abs(along) * LeafFloats(4 * kFloatRoundoff);
     ray.set_interval(hits, along, error);
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
-    hits.low = select(crossing, hits.low, Floats(-kInfinity));
-    hits.high = select(crossing, hits.high, Floats(kInfinity));
+    hits.low = select(crossing, hits.low, LeafFloats(-kInfinity));
+    hits.high = select(crossing, hits.high, LeafFloats(kInfinity));
     hits.sure = inside & crossing;
     hits.open = without(~outside, hits.sure);
     return hits;
@@ -188,43 +198,45 @@ HWY_INLINE LeafHits test_triangles(const RayAtLeaf& ray, const std::uint16_t* co
 /// left of it across d, l = f - (f.d / d.d) d, is off by e and 16 roundings of |f| <= 16 u |f|; l.l
 /// by 2 |l| that + that^2.
 HWY_INLINE LeafHits test_spheres(const RayAtLeaf& ray, const float* values, std::size_t stride,
-                                 std::uint32_t count, const RayMask& front, float scale) {
+                                 std::uint32_t count, const LeafMask& front, float scale) {
     // What stands behind a leaf is not to be taken for a float: it may be a slow, subnormal one.
-    const RayMask present = RayMask::from_bits(first_lanes(count));
-    const Vector16 f = {Floats(ray.from[0]) - Floats::load(values, present),
-                        Floats(ray.from[1]) - Floats::load(values + stride, present),
-                        Floats(ray.from[2]) - Floats::load(values + 2 * stride, present)};
-    const Floats r = Floats::load(values + 3 * stride, present);
-    const Vector16 d = {Floats(ray.direction[0]), Floats(ray.direction[1]),
-                        Floats(ray.direction[2])};
-    const Floats inverse(1 / ray.square);
-    const Floats middle = -dot(f, d) * inverse;
-    const Vector16 l = {mul_add(middle, d.x, f.x), mul_add(middle, d.y, f.y),
-                        mul_add(middle, d.z, f.z)};
-    const Floats across = dot(l, l);
-    const Floats depth = mul_add(r, r, -across);
-    const Floats error = mul_add(sum(f), Floats(scale * 32 * kFloatRoundoff),
-                                 Floats(scale * (8 * kFloatRoundoff + ray.point_error)));
-    const Floats depth_error = mul_add(mul_add(sum(l), Floats(2.0F), error * Floats(3.0F)), error,
-                                       mul_add(r, r, across) * Floats(scale * 16 * kFloatRoundoff));
-    const RayMask meets = depth > depth_error;
-    const RayMask misses = depth < -depth_error;
+    const LeafMask present = LeafMask::from_bits(first_lanes(count));
+    const LeafVector f = {LeafFloats(ray.from[0]) - LeafFloats::load(values, present),
+                          LeafFloats(ray.from[1]) - LeafFloats::load(values + stride, present),
+                          LeafFloats(ray.from[2]) - LeafFloats::load(values + 2 * stride, present)};
+    const LeafFloats r = LeafFloats::load(values + 3 * stride, present);
+    const LeafVector d = {LeafFloats(ray.direction[0]), LeafFloats(ray.direction[1]),
+                          LeafFloats(ray.direction[2])};
+    const LeafFloats inverse(1 / ray.square);
+    const LeafFloats middle = -dot(f, d) * inverse;
+    const LeafVector l = {mul_add(middle, d.x, f.x), mul_add(middle, d.y, f.y),
+                          mul_add(middle, d.z, f.z)};
+    const LeafFloats across = dot(l, l);
+    const LeafFloats depth = mul_add(r, r, -across);
+    const LeafFloats error = mul_add(sum(f), LeafFloats(scale * 32 * kFloatRoundoff),
+                                     LeafFloats(scale * (8 * kFloatRoundoff + ray.point_error)));
+    const LeafFloats depth_error =
+        mul_add(mul_add(sum(l), LeafFloats(2.0F), error * LeafFloats(3.0F)), error,
+                mul_add(r, r, across) * LeafFloats(scale * 16 * kFloatRoundoff));
+    const LeafMask meets = depth > depth_error;
+    const LeafMask misses = depth < -depth_error;
     LeafHits hits = LeafHits::none();
     if (!without(present, misses).any()) return hits;
-    const Floats half = sqrt(max(depth, Floats(0.0F)) * inverse);
+    const LeafFloats half = sqrt(max(depth, LeafFloats(0.0F)) * inverse);
     // sqrt(depth +- error) differs by less than error / sqrt(depth); |d| >= 1.
-    const Floats half_error =
-        select(meets, depth_error / (half * Floats(ray.square)) + half * Floats(8 * kFloatRoundoff),
-               sqrt(depth_error + depth_error));
-    const Floats slack =
+    const LeafFloats half_error = select(
+        meets,
+        depth_error / (half * LeafFloats(ray.square)) + half * LeafFloats(8 * kFloatRoundoff),
+        sqrt(depth_error + depth_error));
+    const LeafFloats slack =
         half_error + error +
-        (abs(middle) + Floats(ray.entry) + half) * Floats(scale * 8 * kFloatRoundoff);
-    const Floats near = Floats(ray.entry) + (middle - half);
-    const Floats far = Floats(ray.entry) + (middle + half);
-    const Floats behind(ray.behind);
-    const RayMask near_ahead = near - slack > behind;
-    const RayMask near_behind = near + slack < behind;
-    const RayMask far_ahead = far - slack > behind;
+        (abs(middle) + LeafFloats(ray.entry) + half) * LeafFloats(scale * 8 * kFloatRoundoff);
+    const LeafFloats near = LeafFloats(ray.entry) + (middle - half);
+    const LeafFloats far = LeafFloats(ray.entry) + (middle + half);
+    const LeafFloats behind(ray.behind);
+    const LeafMask near_ahead = near - slack > behind;
+    const LeafMask near_behind = near + slack < behind;
+    const LeafMask far_ahead = far - slack > behind;
     hits.low = select(near_behind, far - slack, near - slack);
     hits.high = select(near_ahead, near + slack, far + slack);
     hits.sure = meets & (near_ahead | without(near_behind & far_ahead, front));

@@ -57,12 +57,12 @@ Grid grid_over(const Bounds3& box) {
     return grid;
 }
 
-void put_floats(std::span<const float> values, std::vector<std::uint32_t>& words) {
+void put_floats(std::span<const float> values, BigVector<std::uint32_t>& words) {
     for (const float value : values) words.push_back(std::bit_cast<std::uint32_t>(value));
 }
 
 void put_corners(const Grid& grid, std::span<const Triangle> triangles,
-                 std::vector<std::uint32_t>& words) {
+                 BigVector<std::uint32_t>& words) {
     if (triangles.empty()) return;
     std::vector<std::uint16_t> numbers;
     for (const auto corner : {&Triangle::a, &Triangle::b, &Triangle::c})
@@ -183,7 +183,7 @@ WideLeafHead head_of(const Sorted& sorted, const Grid& grid, bool more) {
 }
 
 void put_part(const FastScene& scene, const Sorted& sorted, const Bounds3T<float>& box, bool more,
-              std::vector<std::uint32_t>& words) {
+              BigVector<std::uint32_t>& words) {
     Bounds3 span{Point3(box.min), Point3(box.max)};
     for (const Triangle& t : sorted.corners) span = span.extended(t.bounds());
     const Grid grid = span.empty() ? Grid{} : grid_over(span);
@@ -205,7 +205,7 @@ void put_part(const FastScene& scene, const Sorted& sorted, const Bounds3T<float
 }  // namespace
 
 std::uint32_t append_leaf(const FastScene& scene, std::span<const Slot> slots,
-                          const Bounds3T<float>& box, std::vector<std::uint32_t>& words) {
+                          const Bounds3T<float>& box, BigVector<std::uint32_t>& words) {
     const std::vector<Sorted> parts = sort_by_kind(scene, slots);
     const std::size_t place = words.size();
     for (const Sorted& part : parts) put_part(scene, part, box, &part != &parts.back(), words);

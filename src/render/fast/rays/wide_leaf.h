@@ -11,7 +11,7 @@ namespace nuvo {
 /// Appends a leaf with these slots (ascending), of which something lies in `box`, and returns its
 /// place. The grid spans the box, too: there the rays come in.
 std::uint32_t append_leaf(const FastScene& scene, std::span<const Slot> slots,
-                          const Bounds3T<float>& box, std::vector<std::uint32_t>& words);
+                          const Bounds3T<float>& box, BigVector<std::uint32_t>& words);
 
 /// The box of `slot`, from outside.
 Bounds3T<float> whole_box(const FastScene& scene, Slot slot);

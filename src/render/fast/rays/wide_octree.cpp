@@ -70,24 +70,37 @@ class WideBuilder {
 
     void build() {
         homes_.resize(scene_.slot_end());
+        std::vector<Inner> voxels;
+        set_large_apart(voxels);
         find_homes(0, octree_.bounds);
         measure(0, octree_.bounds);
-        out_.nodes.emplace_back();
-        std::vector<Inner> voxels;
-        if (voxels_[0].leaf)
-            voxels.push_back({0, 0, kFirstShift});
+        out_.nodes.emplace_back(WideNode{});
+        constexpr std::uint64_t kBehindLarge = std::uint64_t{1} << 63;
+        const std::size_t lanes = kWideLanes - voxels.size();
+        const CompactNode& root = octree_.nodes[0];
+        if (voxels_[0].leaf || std::popcount(root.mask()) > static_cast<int>(lanes))
+            voxels.push_back({0, kBehindLarge, kFirstShift});
         else
-            distribute({0, 0, kFirstShift + 3}, kWideLanes, voxels);
+            distribute({0, kBehindLarge, kFirstShift + 3}, lanes, voxels);
         fill(0, voxels);
         // The widest load begins at the last word.
-        out_.leaves.resize(out_.leaves.size() + kWideLanes);
+        out_.leaves.resize(out_.leaves.size() + kLeafLanes, 0);
         out_.leaves.shrink_to_fit();
         out_.nodes.shrink_to_fit();
     }
 
   private:
+    // A voxel in a node, and the way to it from the node's own: three bits an octant, the first
+    // ones highest.
+    struct Inner {
+        std::uint32_t place;
+        std::uint64_t way;
+        int shift;  // of the way's last octant
+    };
+    static constexpr int kFirstShift = 60;
+
     float leaf_cost(const Voxel& voxel) const {
-        const auto blocks = static_cast<float>((voxel.count + kWideLanes - 1) / kWideLanes);
+        const auto blocks = static_cast<float>((voxel.count + kLeafLanes - 1) / kLeafLanes);
         return half_area(voxel.box) * (kLeafCost + kBlockCost * blocks) +
                byte_cost_ * (static_cast<float>(sizeof(WideLeafHead)) +
                              kItemBytes * static_cast<float>(voxel.count));
@@ -136,6 +149,28 @@ class WideBuilder {
         voxel.forest.fill(leaf_cost(voxel));
     }
 
+    // Primitives about as wide as the scene, if they are few, get a leaf beside the root's voxels:
+    // one test that most rays need, instead of one at each leaf on their ways.
+    void set_large_apart(std::vector<Inner>& lanes) {
+        constexpr std::size_t kFew = 2 * kLeafLanes;
+        const float wide = max_norm(octree_.bounds.widths()) / 2;
+        Voxel large;
+        for (Slot slot = 0; slot < scene_.sphere_end() && large.count <= kFew; ++slot) {
+            const Bounds3T<float> box = whole_box(scene_, slot);
+            if (max_norm(box.widths()) < wide) continue;
+            ++large.count;
+            large.box = large.box.extended(box);
+            items_.push_back(slot);
+        }
+        if (large.count > kFew) items_.clear();
+        if (items_.empty()) return;
+        for (const Slot slot : items_)
+            homes_[slot] = {~std::uint32_t{0}, -std::numeric_limits<float>::infinity(), true};
+        large.leaf = true;
+        lanes.push_back({static_cast<std::uint32_t>(voxels_.size()), 0, 0});
+        voxels_.push_back(large);
+    }
+
     // Which leaf, by its first item's place, is nearest to an item's middle; and whether it is
     // small enough against it to be listed there only, as a whole.
     struct Home {
@@ -173,7 +208,7 @@ class WideBuilder {
 
     // The items of all octants without repetition, if they are few.
     void gather_items(const CompactNode& node, Voxel& voxel) {
-        constexpr std::size_t kMostOfLeaf = 2 * kWideLanes;
+        constexpr std::size_t kMostOfLeaf = 4 * kLeafLanes;
         gathered_.clear();
         for (int i = 0; i < std::popcount(node.mask()); ++i) {
             const Voxel& child = voxels_[node.first_child() + static_cast<std::uint32_t>(i)];
@@ -214,15 +249,6 @@ class WideBuilder {
         }
         return sums;
     }
-
-    // A voxel in a node, and the way to it from the node's own: three bits an octant, the first
-    // ones highest.
-    struct Inner {
-        std::uint32_t place;
-        std::uint64_t way;
-        int shift;  // of the way's last octant
-    };
-    static constexpr int kFirstShift = 60;
 
     // Appends the octants of a voxel, or what stands for them, in at most `lanes` lanes.
     void distribute(const Inner& voxel, std::size_t lanes, std::vector<Inner>& out) const {
@@ -272,8 +298,7 @@ class WideBuilder {
                       [&](std::uint32_t a, std::uint32_t b) {
                           return (voxels[a].way ^ turned) < (voxels[b].way ^ turned);
                       });
-            for (std::size_t i = 0; i < kWideLanes; ++i)
-                node.order[signs][i % 2] |= lanes[i] << (4 * (i / 2));
+            for (std::size_t i = 0; i < kWideLanes; ++i) node.order[signs] |= lanes[i] << (4 * i);
         }
     }
 
@@ -305,7 +330,7 @@ class WideBuilder {
         for (std::size_t lane = 0; lane < voxels.size(); ++lane) {
             if (voxels_[voxels[lane].place].leaf) continue;
             const std::size_t next = out_.nodes.size();
-            out_.nodes.emplace_back();
+            out_.nodes.emplace_back(WideNode{});
             out_.nodes[place].child[lane] = static_cast<std::uint32_t>(next);
             std::vector<Inner> inside;
             distribute({voxels[lane].place, 0, kFirstShift + 3}, kWideLanes, inside);
