@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 """Changes single places of the code and sees whether the tests notice.
 
-usage: scripts/mutate.py [--room=geometry|octree|fast] [--mutants=N] [--seed=S] [--build=FOLDER] [--jobs=N]
+usage: scripts/mutate.py [--room=geometry|octree|fast|bounds] [--mutants=N] [--seed=S] [--build=FOLDER] [--jobs=N]
 
-Draws N places (60) of a room's .cpp files with seed S (1), makes one change at each (a comparison, a sign, a
-constant, an error bound taken away, a statement left out), compiles that file alone, links the room's tests with
-it in place of the library's own, and runs them until one fails or the time is up. Needs the room's tests built in
-FOLDER (build/release). A change that does not compile is drawn again. Survivors are listed; docs/reliability.md
-answers them.
+Draws N places (60) of a room's files with seed S (1), makes one change at each (a comparison, a sign, a constant,
+an error bound taken away, a statement left out) in a copy of the sources, compiles what the file is part of, links
+the room's tests with it in place of the library's own, and runs them until one fails or the time is up. The room
+`bounds` is those lines of the fast room that have to do with error bounds. Needs the room's tests built in FOLDER
+(build/release). A change that does not compile is drawn again. Survivors are listed; docs/reliability.md answers them.
 """
 import argparse
 import concurrent.futures
@@ -15,7 +15,10 @@ import json
 import pathlib
 import random
 import re
+import resource
 import shlex
+import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -23,11 +26,14 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 ROOMS = {  # the files, and the test programs that run one after the other
-    "geometry": (["src/geometry/*.cpp"], [["geometry_tests"], ["property_tests"]]),
+    "geometry": (["src/geometry/*.cpp"], [["geometry_tests", "--gtest_filter=-Placements/*"],
+                                          ["geometry_tests", "--gtest_filter=Placements/*"], ["property_tests"]]),
     "octree": (["src/octree/*.cpp"], [["octree_tests"], ["property_tests"]]),
     "fast": (["src/render/fast/scene/*.cpp", "src/render/fast/primary/*.cpp", "src/render/fast/shadow/*.cpp",
               "src/render/fast/tile/*.cpp"], [["render_tests"], ["fuzz_tests"]]),
+    "bounds": (["src/render/fast/**/*.cpp", "src/render/fast/**/*.h"], [["render_tests"], ["fuzz_tests"]]),
 }
+ONLY = {"bounds": re.compile(r"Roundoff|gamma\(|Underflow|[eE]rror|[sS]lack|margin|kSmallest")}
 SWAPS = {" < ": " <= ", " <= ": " < ", " > ": " >= ", " >= ": " > ", " == ": " != ", " != ": " == ", " && ": " || ",
          " || ": " && ", " + ": " - ", " - ": " + ", " * ": " / ", " / ": " * ", " += ": " -= ", " -= ": " += ",
          "std::min(": "std::max(", "std::max(": "std::min(", "true": "false", "false": "true", "++": "--"}
@@ -37,11 +43,13 @@ NUMBER = re.compile(r"(?<![\w.<])\d+(?![\w.>])")
 STATEMENT = re.compile(r"^\s*(?:[\w.\->\[\]]+\(.*\);|[\w.\->\[\]]+ [-+*|&]?= .*;|continue;|break;|return;)$")
 
 
-def places(path):
+def places(path, only=None):
     """All changes of a file: (line number, new line)."""
     found = []
     for number, line in enumerate(path.read_text().split("\n")):
         code = line.split("//")[0]
+        if only and not only.search(code):
+            continue
         if not code.strip() or re.match(r"\s*(#|static_assert|using|namespace|template|NUVO_|HWY_|\"|\*|/\*)", code):
             continue
         def add(match, text):
@@ -60,8 +68,17 @@ def places(path):
 class Tester:
     def __init__(self, build, programs, seconds):
         self.build, self.seconds = build, seconds
-        self.compile = {pathlib.Path(c["file"]).resolve(): c["command"]
+        self.compile = {re.search(r" -o (\S+)", c["command"])[1]: c["command"]
                         for c in json.loads((build / "compile_commands.json").read_text())}
+        self.objects = {}  # by a source or header: the library's and the tests' objects that it is part of
+        rooms = "|".join(re.escape(f"tests/CMakeFiles/{words[0]}.dir/") for words in programs)
+        wanted = re.compile(f"CMakeFiles/nuvo_lib.dir/|{rooms}")
+        deps = subprocess.run(["ninja", "-C", str(build), "-t", "deps"], check=True, capture_output=True, text=True)
+        for line in deps.stdout.splitlines():
+            if ": #deps" in line:
+                output = line.split(":")[0]
+            elif line.startswith(" ") and wanted.match(output):
+                self.objects.setdefault((build / line.strip()).resolve(), []).append(output)
         self.tests = []
         for words in programs:
             commands = subprocess.run(["ninja", "-C", str(build), "-t", "commands", f"tests/{words[0]}"],
@@ -73,29 +90,33 @@ class Tester:
     def judge(self, path, number, line):
         """"killed by X", "survived" or "does not compile"."""
         with tempfile.TemporaryDirectory() as folder:
+            for part in ("src", "include"):
+                shutil.copytree(ROOT / part, pathlib.Path(folder, part))
             lines = path.read_text().split("\n")
             lines[number] = line
-            changed = pathlib.Path(folder, path.name)
-            changed.write_text("\n".join(lines))
-            words = shlex.split(self.compile[path])
-            words[words.index("-o") + 1] = f"{folder}/changed.o"
-            words[words.index("-c") + 1] = str(changed)
-            words = [w for w in words if "ccache" not in w] + ["-w", "-iquote", str(path.parent)]
-            if "HWY_" not in "\n".join(lines):
-                words.append("-O1")
-            if subprocess.run(words, cwd=self.build, capture_output=True).returncode != 0:
-                return "does not compile"
+            pathlib.Path(folder, path.relative_to(ROOT)).write_text("\n".join(lines))
+            objects = {}
+            for output in self.objects.get(path, []):
+                words = [re.sub(f"^(-I)?{ROOT}/(src|include)", rf"\g<1>{folder}/\2", w)
+                         for w in shlex.split(self.compile[output]) if "ccache" not in w]
+                objects[output] = f"{folder}/{len(objects)}.o"
+                words[words.index("-o") + 1] = objects[output]
+                if subprocess.run(words + ["-w", "-O1"], cwd=self.build, capture_output=True).returncode != 0:
+                    return "does not compile"
             for link, program in self.tests:
                 command = shlex.split(link)
                 command[command.index("-o") + 1] = f"{folder}/tests"
-                command.insert(command.index("-o"), f"{folder}/changed.o")
+                # A test's own objects give way, the library's come before it.
+                command = [objects.get(word, word) for word in command]
+                place = command.index("-o")
+                command[place:place] = [o for output, o in objects.items() if output.startswith("CMakeFiles")]
                 done = subprocess.run(command, cwd=self.build, capture_output=True, text=True)
                 if done.returncode != 0:
                     sys.exit(f"{path}: {done.stderr[-500:]}")
-                try:
-                    run = subprocess.run([f"{folder}/tests", "--gtest_fail_fast", "--gtest_brief=1", *program[1:]],
-                                         cwd=folder, capture_output=True, text=True, timeout=self.seconds)
-                except subprocess.TimeoutExpired:
+                run = subprocess.run([f"{folder}/tests", "--gtest_fail_fast", "--gtest_brief=1", *program[1:]],
+                                     cwd=folder, capture_output=True, text=True, preexec_fn=lambda: resource.setrlimit(
+                                         resource.RLIMIT_CPU, (self.seconds, self.seconds)))
+                if run.returncode in (-signal.SIGKILL, -signal.SIGXCPU):
                     return f"killed by {program[0]}: no end"
                 if run.returncode != 0:
                     failed = re.search(r"\[  FAILED  \] (\S+)", run.stdout)
@@ -110,10 +131,11 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build/release")
     parser.add_argument("--jobs", type=int, default=1)
-    parser.add_argument("--seconds", type=int, default=600, help="a run of tests ends after so many")
+    parser.add_argument("--seconds", type=int, default=600, help="of processor time that a run of tests may take")
     arguments = parser.parse_args()
     files, programs = ROOMS[arguments.room]
-    all_places = [(path, *place) for pattern in files for path in sorted(ROOT.glob(pattern)) for place in places(path)]
+    all_places = [(path, *place) for pattern in files for path in sorted(ROOT.glob(pattern))
+                  for place in places(path, ONLY.get(arguments.room))]
     random.Random(arguments.seed).shuffle(all_places)
     tester = Tester(arguments.build.resolve(), programs, arguments.seconds)
     print(f"{arguments.room}: {len(all_places)} places, seed {arguments.seed}")

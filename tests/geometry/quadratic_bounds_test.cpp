@@ -192,5 +192,32 @@ TEST(QuadraticBounds, OfEllipsoidsAreAtLeastTheWorstRoundings) {
     EXPECT_LT(band.least, 3);
 }
 
+// Where squares or their products may leave the range nothing is decided, whichever of the numbers
+// is at fault.
+TEST(QuadraticBounds, DecideNothingOutOfRange) {
+    const Matrix3 one;
+    const auto known = [&](double f, double d, double radius) {
+        const ExactRay ray(Ray{{f, f, f}, {d, d, d}});
+        const detail::RoundedQuadratic sphere = detail::rounded_quadratic(ray, Sphere{{}, radius});
+        const detail::RoundedQuadratic ellipsoid =
+            detail::rounded_quadratic(ray, Ellipsoid{{}, one, radius});
+        SphereHit hit;
+        for (const detail::RoundedQuadratic& q : {sphere, ellipsoid})
+            if (std::isnan(q.b_error)) {
+                EXPECT_EQ(detail::rounded_hit(q, Sides::kBoth, hit), detail::Decision::kUnsure);
+                EXPECT_EQ(detail::rounded_blocks(q, 1, {0, 0}, false, Sides::kBoth),
+                          detail::Decision::kUnsure);
+            }
+        EXPECT_EQ(std::isnan(sphere.b_error), std::isnan(ellipsoid.b_error));
+        return !std::isnan(sphere.b_error);
+    };
+    for (const double in : {0x1p-390, 1.0, 0x1p390}) EXPECT_TRUE(known(in, in, in));
+    EXPECT_FALSE(known(0x1p451, 1, 1));
+    EXPECT_FALSE(known(1, 1, 0x1p451));
+    EXPECT_FALSE(known(0x1p-452, 1, 0x1p-452));
+    EXPECT_FALSE(known(1, 0x1p401, 1));
+    EXPECT_FALSE(known(1, 0x1p-402, 1));
+}
+
 }  // namespace
 }  // namespace nuvo
