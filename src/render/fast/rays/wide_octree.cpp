@@ -294,10 +294,14 @@ class WideBuilder {
             constexpr std::uint64_t kEachOctant = 0x1249249249249249;  // bit 0 of three
             const std::uint64_t turned = signs * kEachOctant;
             std::iota(lanes.begin(), lanes.end(), 0U);
-            std::sort(lanes.begin(), lanes.begin() + static_cast<std::ptrdiff_t>(voxels.size()),
-                      [&](std::uint32_t a, std::uint32_t b) {
-                          return (voxels[a].way ^ turned) < (voxels[b].way ^ turned);
-                      });
+            // As many places on as there are nearer ones: no two ways are the same.
+            for (std::size_t i = 0; i < voxels.size(); ++i) {
+                const auto nearer =
+                    std::count_if(voxels.begin(), voxels.end(), [&](const Inner& other) {
+                        return (other.way ^ turned) < (voxels[i].way ^ turned);
+                    });
+                lanes[static_cast<std::size_t>(nearer)] = static_cast<std::uint32_t>(i);
+            }
             for (std::size_t i = 0; i < kWideLanes; ++i) node.order[signs] |= lanes[i] << (4 * i);
         }
     }
