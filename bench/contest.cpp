@@ -27,12 +27,19 @@ FastOptions fast_options(const ContestOptions& options, std::optional<OctreeType
 double wall_seconds(const app::ProcessStopwatch& watch) { return watch.elapsed().wall_seconds; }
 
 // Memory that this process has used before is at hand; some that it has not may first have to be
-// fetched by the system below, as slowly as it likes. Both sides begin with enough that was used.
+// fetched by the system below, as slowly as it likes. Both sides begin with enough that was used,
+// on pages of either size: a system keeps them apart.
+template <typename Bytes>
+void use(std::size_t count) {
+    const Bytes used(count, 1);
+    const volatile char sink = used[count / 2];
+    static_cast<void>(sink);
+}
 void warm_memory(std::size_t primitives) {
     constexpr std::size_t kBytesEach = 640;
-    std::vector<char> used(primitives * kBytesEach + (std::size_t{1} << 26), 1);
-    const volatile char sink = used[used.size() / 2];
-    static_cast<void>(sink);
+    const std::size_t count = primitives * kBytesEach + (std::size_t{1} << 26);
+    use<std::vector<char>>(count);
+    use<BigVector<char>>(count);
 }
 
 void our_round(const Scene& scene, const ContestOptions& options, OurSamples& samples,

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <optional>
 #include <system_error>
 #include <tuple>
 
@@ -14,6 +15,7 @@
 #include "nuvo/app/report.h"
 #include "nuvo/image/file_writer.h"
 #include "nuvo/image/picture_file.h"
+#include "nuvo/math/big_vector.h"
 #include "passes.h"
 #include "scene_files.h"
 #include "text.h"
@@ -131,10 +133,18 @@ bool is_further_apart(const image::Difference& a, const image::Difference& b) {
            std::tie(b.max_difference, b.differing_pixels);
 }
 
+/// The tile tracer's tables are as large as the file and what is read of it: their memory serves
+/// again, and so does that of each repetition.
+std::optional<BlockKeeper> keeper_for(const Options& options) {
+    if (options.profile.tracer != TracerChoice::kTiles) return std::nullopt;
+    return std::optional<BlockKeeper>(std::in_place);
+}
+
 }  // namespace
 
 ExitCode render_command(const Options& options) {
     check_terminal(options);
+    const std::optional<BlockKeeper> keeper = keeper_for(options);
     Meter meter(options.shows_progress());
     const LoadedScene loaded = load(options, meter);
     const fs::path picture_path = chosen_picture(options, loaded);
@@ -164,6 +174,7 @@ ExitCode render_command(const Options& options) {
 }
 
 ExitCode compare_command(const Options& options) {
+    const std::optional<BlockKeeper> keeper = keeper_for(options);
     Meter meter(options.shows_progress());
     const LoadedScene loaded = load(options, meter);
     const fs::path picture_path = chosen_picture(options, loaded);
@@ -237,6 +248,7 @@ std::string answer_bytes(const LoadedScene& loaded, const Options& options,
 }  // namespace
 
 ExitCode rays_command(const Options& options) {
+    const std::optional<BlockKeeper> keeper = keeper_for(options);
     Meter meter(options.shows_progress());
     const LoadedScene loaded = load(options, meter);
     meter.begin("reading the rays");
