@@ -65,6 +65,7 @@ inline void expect_identical(const Scene& scene, const std::vector<Resolution>& 
                 const FastOptions options{type, count, isa};
                 FastTracer tracer(scene, primitives, options);
                 const FastScene fast(scene, primitives, type, count);
+                SerialTree serial(fast);
                 KeptShadows kept;
                 for (std::size_t i = 0; i < (count == 1 ? sizes.size() : 1); ++i) {
                     EXPECT_EQ(difference(expected[i], tracer.render(sizes[i])), "")
@@ -75,7 +76,7 @@ inline void expect_identical(const Scene& scene, const std::vector<Resolution>& 
                         EXPECT_EQ(
                             difference(
                                 expected[i],
-                                Frame(fast, options, sizes[i], nullptr, kept, listing).render()),
+                                Frame(serial, options, sizes[i], nullptr, kept, listing).render()),
                             "")
                             << text(options, sizes[i]) << ", listing " << static_cast<int>(listing);
                 }

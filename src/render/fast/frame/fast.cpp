@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "exact_kernel.h"
 #include "fast/frame/count.h"
 #include "fast/frame/frame.h"
 #include "fast/rays/single_ray.h"
@@ -17,18 +16,6 @@ FastOptions with_isa(FastOptions options) {
     return options;
 }
 
-// What the serial tracer needs of the same scene.
-struct SerialTree {
-    SerialTree(const FastScene& fast, Progress* progress)
-        : profile(exact_profile()),
-          octree(build_tree(fast.scene(), fast.primitives(), profile, progress)) {
-        profile.back_faces = fast.back_faces();
-    }
-
-    Profile profile;
-    Octree octree;
-};
-
 }  // namespace
 
 struct FastTracer::State {
@@ -40,6 +27,7 @@ struct FastTracer::State {
     BlockKeeper keeper;
     FastOptions options;
     FastScene fast;
+    SerialTree serial{fast};
     KeptShadows kept;
     std::size_t table_bytes = 0;
     std::unique_ptr<SingleRays> single;  // made when rays are first asked for
@@ -54,11 +42,12 @@ FastTracer& FastTracer::operator=(FastTracer&&) noexcept = default;
 Image FastTracer::render(Resolution resolution, FastTimes* times) {
     const FastScene& fast = state_->fast;
     if (!Frame::can_show(fast.frame(), fast.scene().camera)) {
-        const SerialTree tree(fast, state_->options.progress);
-        return nuvo::render(fast.scene(), fast.primitives(), tree.octree, tree.profile, resolution,
-                            state_->options.progress);
+        SerialTree& serial = state_->serial;
+        Progress* const progress = state_->options.progress;
+        return nuvo::render(fast.scene(), fast.primitives(), serial.octree(progress),
+                            serial.profile(), resolution, progress);
     }
-    Frame frame(fast, state_->options, resolution, times, state_->kept);
+    Frame frame(state_->serial, state_->options, resolution, times, state_->kept);
     Image image = frame.render();
     state_->table_bytes = frame.memory_bytes();
     return image;
@@ -69,16 +58,16 @@ std::vector<RayAnswer> FastTracer::closest_hits(std::span<const Ray> rays) const
     if (!single)
         single = std::make_unique<SingleRays>(state_->fast, state_->options.isa,
                                               state_->options.redo_exactly);
-    return single->closest_hits(rays, state_->options.progress);
+    return single->closest_hits(rays, state_->options.progress, &state_->serial);
 }
 
 RayCounts FastTracer::count_rays(Resolution resolution) const {
     const FastScene& fast = state_->fast;
     if (Frame::can_show(fast.frame(), fast.scene().camera))
         return nuvo::count_rays(fast, state_->options.isa, resolution, state_->options.progress);
-    const SerialTree tree(fast, state_->options.progress);
-    const TraceCounts counts = count_events(fast.scene(), fast.primitives(), tree.octree,
-                                            tree.profile, resolution, state_->options.progress);
+    SerialTree& serial = state_->serial;
+    const TraceCounts counts = count_events(fast.scene(), fast.primitives(), serial.octree(),
+                                            serial.profile(), resolution, state_->options.progress);
     return {counts.primary_rays, counts.shadow_rays};
 }
 

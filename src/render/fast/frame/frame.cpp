@@ -1,11 +1,13 @@
 #include "fast/frame/frame.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <optional>
 
 #include "fast/camera/camera_tables.h"
 #include "fast/frame/kept_shadows.h"
+#include "fast/frame/serial_pixels.h"
 #include "fast/light/wanted_depths.h"
 #include "fast/primary/primary.h"
 #include "fast/scene/seen_triangles.h"
@@ -104,6 +106,7 @@ struct Frame::Tables {
     CameraRays rays;
     std::vector<TilePlace> tiles;
     bool two_passes;
+    std::atomic<bool> is_serial = false;  // what is left is for the serial tracer
     std::optional<CameraTables> camera;
     const ShadowTables* shadow = nullptr;
     std::optional<ShadowTables> wanted_shadow;  // of what may stand before wanted points
@@ -127,13 +130,14 @@ struct Frame::Tables {
 class Frame::Worker {
   public:
     /// `clocked`: spent() is asked for.
-    Worker(const FastScene& scene, const Tables& tables, const FastOptions& options, bool clocked)
-        : scene_(scene),
+    Worker(SerialTree& serial, Tables& tables, const FastOptions& options, bool clocked)
+        : serial_(serial),
+          scene_(serial.scene()),
           tables_(tables),
           options_(options),
           clocked_(clocked),
-          fallback_(scene, tables.rays),
-          job_{scene, tables.rays, *tables.camera, fallback_, options.redo_exactly, {}},
+          fallback_(scene_, tables.rays),
+          job_{scene_, tables.rays, *tables.camera, fallback_, options.redo_exactly, {}},
           primary_(options.isa),
           shading_(*tables.shading) {}
 
@@ -141,6 +145,7 @@ class Frame::Worker {
     void find(TilePlace place, MacroTile& macro, MacroQuadrics* quadrics) {
         macro.x = place.column * kMacroSide;
         macro.y = place.row * kMacroSide;
+        if (tables_.is_serial) return;
         StageClock clock(clocked_);
         primary_.trace(job_, macro, quadrics);
         clock.add_to(spent_.primary);
@@ -187,6 +192,10 @@ class Frame::Worker {
         for_each_tile(macro, quadrics, [&] { shade_tile(image, clock); });
     }
     void shade_tile(Image& image, StageClock& clock) {
+        shaded_ += kTileLanes;
+        if (options_.redo_exactly && is_serial_cheaper(fallback_.tests(), shaded_, scene_))
+            tables_.is_serial = true;
+        if (tables_.is_serial) return trace_serially(image);
         if (hit_anything()) {
             shading_.surface(tile_);
             for (std::size_t light = 0; light < scene_.scene().lights.size(); ++light) {
@@ -203,15 +212,26 @@ class Frame::Worker {
         clock.add_to(spent_.shading);
     }
 
+    void trace_serially(Image& image) {
+        if (!pixels_) pixels_.emplace(serial_);
+        const Resolution size = tables_.rays.resolution;
+        for (int y = tile_.y; y < std::min(tile_.y + kTileSide, size.height); ++y)
+            for (int x = tile_.x; x < std::min(tile_.x + kTileSide, size.width); ++x)
+                image.at(x, y) = pixels_->pixel(tables_.rays.rays.ray(x, y));
+    }
+
     bool hit_anything() const {
         return std::any_of(std::begin(tile_.hit), std::end(tile_.hit),
                            [](std::uint16_t lanes) { return lanes != 0; });
     }
 
+    SerialTree& serial_;
     const FastScene& scene_;
-    const Tables& tables_;
+    Tables& tables_;
     const FastOptions& options_;
     bool clocked_;
+    std::uint64_t shaded_ = 0;            // pixels
+    std::optional<SerialPixels> pixels_;  // once the serial tracer has taken over
     FastTimes spent_;
     ExactFallback fallback_;
     PrimaryJob job_;
@@ -223,11 +243,16 @@ class Frame::Worker {
     Tile tile_{};
 };
 
-Frame::Frame(const FastScene& scene, const FastOptions& options, Resolution resolution,
+Frame::Frame(SerialTree& serial, const FastOptions& options, Resolution resolution,
              FastTimes* times, KeptShadows& kept, ShadowListing listing)
-    : scene_(scene), options_(options), times_(times), kept_(kept), listing_(listing) {
+    : serial_(serial),
+      scene_(serial.scene()),
+      options_(options),
+      times_(times),
+      kept_(kept),
+      listing_(listing) {
     StageClock clock(times != nullptr);
-    tables_ = std::make_unique<Tables>(scene, options, resolution, kept, listing);
+    tables_ = std::make_unique<Tables>(scene_, options, resolution, kept, listing);
     workers_.resize(static_cast<std::size_t>(options.threads));
     if (times != nullptr) clock.add_to(times->tables);
 }
@@ -249,7 +274,7 @@ void Frame::for_each_tile(Work&& work) {
     for_each_index(options_.threads, tables_->tiles.size(), [&](std::size_t i, int thread) {
         std::unique_ptr<Worker>& worker = workers_[static_cast<std::size_t>(thread)];
         if (!worker)
-            worker = std::make_unique<Worker>(scene_, *tables_, options_, times_ != nullptr);
+            worker = std::make_unique<Worker>(serial_, *tables_, options_, times_ != nullptr);
         work(*worker, i);
     });
 }

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "fast/frame/kept_shadows.h"
-#include "fast/scene/fast_scene.h"
+#include "fast/scene/serial_tree.h"
 #include "nuvo/image/image.h"
 #include "nuvo/render/fast.h"
 
@@ -22,8 +22,8 @@ class Frame {
     static bool can_show(const LocalFrame& frame, const Camera& camera);
 
     /// Adds to `times` if it is given. Keeps references.
-    Frame(const FastScene& scene, const FastOptions& options, Resolution resolution,
-          FastTimes* times, KeptShadows& kept, ShadowListing listing = ShadowListing::kMeasured);
+    Frame(SerialTree& serial, const FastOptions& options, Resolution resolution, FastTimes* times,
+          KeptShadows& kept, ShadowListing listing = ShadowListing::kMeasured);
     ~Frame();
 
     /// `options.threads` threads take tiles from one counter. Once.
@@ -42,6 +42,7 @@ class Frame {
     void make_tables_of_hits();
     void find_wanted();
 
+    SerialTree& serial_;
     const FastScene& scene_;
     FastOptions options_;
     FastTimes* times_;

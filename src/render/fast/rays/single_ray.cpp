@@ -16,14 +16,18 @@
 HWY_BEFORE_NAMESPACE();
 namespace nuvo::HWY_NAMESPACE {
 
-void walk_rays(const SingleRays& rays, std::span<const Ray> all, RayAnswer* answers) {
+std::size_t walk_rays(const SingleRays& rays, std::span<const Ray> all, bool may_give_up,
+                      RayAnswer* answers) {
     const auto interleaved = std::make_unique<InterleavedRays>(rays);
     std::array<Slot, kRayBatch> found;
-    for (std::size_t first = 0; first < all.size(); first += kRayBatch) {
+    std::size_t first = 0;
+    while (first < all.size() && !(may_give_up && rays.gives_up(first))) {
         const auto batch = all.subspan(first, std::min(kRayBatch, all.size() - first));
         interleaved->run(batch, found.data());
         rays.answer(batch, found.data(), answers + first);
+        first += batch.size();
     }
+    return first;
 }
 
 }  // namespace nuvo::HWY_NAMESPACE
@@ -49,22 +53,30 @@ SingleRays::SingleRays(const FastScene& scene, InstructionSet isa, bool redo_exa
     }
 }
 
-std::vector<RayAnswer> SingleRays::closest_hits(std::span<const Ray> rays,
-                                                Progress* progress) const {
+std::vector<RayAnswer> SingleRays::closest_hits(std::span<const Ray> rays, Progress* progress,
+                                                SerialTree* serial) const {
     constexpr std::size_t kTold = 64 * kRayBatch;
     std::vector<RayAnswer> answers(rays.size());
     begin(progress, "rays", rays.size());
     const std::size_t part = progress != nullptr ? kTold : rays.size();
-    for (std::size_t first = 0; first < rays.size(); first += part) {
+    for (std::size_t first = 0; first < rays.size();) {
         const auto some = rays.subspan(first, std::min(part, rays.size() - first));
-        walk_(*this, some, answers.data() + first);
-        add(progress, some.size());
+        const std::size_t answered = walk_(*this, some, serial != nullptr, answers.data() + first);
+        first += answered;
+        rays_ += answered;
+        add(progress, answered);
+        if (answered == some.size()) continue;
+        const auto rest = nuvo::closest_hits(scene_.scene(), scene_.primitives(), &serial->octree(),
+                                             serial->profile(), rays.subspan(first), progress);
+        std::copy(rest.begin(), rest.end(), answers.begin() + static_cast<std::ptrdiff_t>(first));
+        break;
     }
     return answers;
 }
 
 std::optional<RayCandidate> SingleRays::decide(const Ray& ray, const LocalRay& local,
                                                std::span<const RayCandidate> candidates) const {
+    tests_ += candidates.size();
     std::array<Slot, RayState::kMaxCandidates> slots;
     std::size_t count = 0;
     for (const RayCandidate& candidate : candidates) slots[count++] = candidate.slot;
@@ -197,6 +209,7 @@ void SingleRays::answer(std::span<const Ray> rays, const Slot* found, RayAnswer*
 }
 
 Slot SingleRays::brute_force(const Ray& ray) const {
+    tests_ += scene_.slot_end();
     std::vector<Slot> slots(scene_.slot_end());
     std::iota(slots.begin(), slots.end(), Slot{0});
     const auto nearest = exactly_nearest_of(ray, slots);

@@ -11,7 +11,7 @@
 #include "fast/rays/ray_state.h"
 #include "fast/rays/triangle_roots.h"
 #include "fast/rays/wide_octree.h"
-#include "fast/scene/fast_scene.h"
+#include "fast/scene/serial_tree.h"
 #include "nuvo/render/fast.h"
 
 // Rays that have nothing in common, each on its own: a step decides on 16 voxels or 16
@@ -32,9 +32,10 @@ class SingleRays {
     /// `redo_exactly`: see FastOptions.
     SingleRays(const FastScene& scene, InstructionSet isa, bool redo_exactly);
 
-    /// What closest_hits() of the exact profile answers.
-    std::vector<RayAnswer> closest_hits(std::span<const Ray> rays,
-                                        Progress* progress = nullptr) const;
+    /// What closest_hits() of the exact profile answers. Where floats leave most to exact tests the
+    /// rest is left to the serial tracer, if there is one.
+    std::vector<RayAnswer> closest_hits(std::span<const Ray> rays, Progress* progress = nullptr,
+                                        SerialTree* serial = nullptr) const;
 
     /// Bytes of nodes and leaves.
     std::size_t memory_bytes() const { return tree_.memory_bytes(); }
@@ -44,6 +45,10 @@ class SingleRays {
     const WideOctree& tree() const { return tree_; }
     /// What the bounds of the float stage are multiplied with: 1, or 0 for measuring their price.
     float bounds_scale() const { return bounds_scale_; }
+    /// After `rays` of this call.
+    bool gives_up(std::size_t rays) const {
+        return bounds_scale_ != 0 && is_serial_cheaper(tests_, rays_ + rays, scene_);
+    }
     /// The nearest of the candidates by exact arithmetic, if any is met.
     std::optional<RayCandidate> decide(const Ray& ray, const LocalRay& local,
                                        std::span<const RayCandidate> candidates) const;
@@ -80,7 +85,9 @@ class SingleRays {
     std::vector<MeshPlace> meshes_;  // by object
     TriangleRootStage roots_;
     float bounds_scale_;
-    void (*walk_)(const SingleRays&, std::span<const Ray>, RayAnswer*);
+    std::size_t (*walk_)(const SingleRays&, std::span<const Ray>, bool, RayAnswer*);
+    mutable std::uint64_t rays_ = 0;   // answered
+    mutable std::uint64_t tests_ = 0;  // exact ones
 };
 
 }  // namespace nuvo

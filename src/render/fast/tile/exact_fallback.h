@@ -46,6 +46,7 @@ class ExactFallback {
     /// which a box tells at less cost.
     bool blocks(const Kernel::Shadow& ray, Slot occluder) const {
         const PrimitiveId id = scene_.id(occluder);
+        ++tests_;
         return comes_near(ray, occluder) && kernel_.blocks(ray, {id, id + 1});
     }
     /// Whether `occluder` may do so, by its box.
@@ -55,6 +56,9 @@ class ExactFallback {
     /// Whether any item of a leaf of the octree does; for leaves of which many come near the ray:
     /// what some rays have found is kept. [crowd.h]
     bool blocks_any(const Kernel::Shadow& ray, std::span<const Slot> leaf) const;
+
+    /// Of a primitive by a ray, so far.
+    std::uint64_t tests() const { return tests_; }
 
     /// The pixel's color, given what it shows (kNoSlot: the background) and which lights are not
     /// blocked (bit i of the predicate; lights that do not cast shadows are asked for, too).
@@ -91,6 +95,7 @@ class ExactFallback {
     const FastScene& scene_;
     const CameraRays& camera_;
     Kernel kernel_;
+    mutable std::uint64_t tests_ = 0;
     mutable std::unordered_map<const Slot*, LargeLeaf> large_leaves_;  // by their first items
 };
 

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <mutex>
+
+#include "fast/scene/fast_scene.h"
+#include "nuvo/octree/octree.h"
+#include "nuvo/render/profile.h"
+#include "nuvo/render/render.h"
+
+// Where floats tell too little of a scene the serial tracer of the exact profile takes over, whose
+// crowds learn from ray to ray: so that no picture takes much longer than there.
+
+namespace nuvo {
+
+/// What the serial tracer needs of a scene; its octree is built when it is first asked for.
+class SerialTree {
+  public:
+    explicit SerialTree(const FastScene& scene) : scene_(scene), profile_(exact_profile()) {
+        profile_.back_faces = scene.back_faces();
+    }
+
+    const FastScene& scene() const { return scene_; }
+    const Profile& profile() const { return profile_; }
+    /// For any number of threads at once.
+    const Octree& octree(Progress* progress = nullptr) {
+        std::call_once(once_, [&] {
+            octree_ = build_tree(scene_.scene(), scene_.primitives(), profile_, progress);
+            is_built_ = true;
+        });
+        return octree_;
+    }
+    bool is_built() const { return is_built_; }
+
+  private:
+    const FastScene& scene_;
+    Profile profile_;
+    std::once_flag once_;
+    std::atomic<bool> is_built_ = false;
+    Octree octree_;
+};
+
+/// Whether exact answers for so many rays have taken more tests than the octree and the rays of the
+/// serial tracer would, about.
+inline bool is_serial_cheaper(std::uint64_t tests, std::uint64_t rays, const FastScene& scene) {
+    constexpr std::uint64_t kTestsARay = 4;
+    constexpr std::uint64_t kTestsAnItem = 64;
+    return tests > kTestsARay * rays + kTestsAnItem * scene.slot_end();
+}
+
+}  // namespace nuvo

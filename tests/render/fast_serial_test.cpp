@@ -1,0 +1,77 @@
+// Where floats tell too little of a scene the fast tracer hands what is left to the serial tracer:
+// the answers stay, and nobody waits for them.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "fast/rays/single_ray.h"
+#include "fast_cases.h"
+#include "nuvo/scene/x3d.h"
+
+namespace nuvo::testing {
+namespace {
+
+constexpr Resolution kSize{160, 90};
+
+struct Subject {
+    explicit Subject(const std::string& file)
+        : scene(x3d::read_file(std::filesystem::path(NUVO_SOURCE_DIR) / file)),
+          primitives(flatten(scene, LeafContent::kPrimitives)),
+          fast(scene, primitives, OctreeType::kUniform, 1),
+          serial(fast) {}
+
+    Image picture() {
+        KeptShadows kept;
+        return Frame(serial, {OctreeType::kUniform, 1}, kSize, nullptr, kept).render();
+    }
+    std::vector<RayAnswer> hits(std::span<const Ray> rays) {
+        return SingleRays(fast, InstructionSet::kBest, true).closest_hits(rays, nullptr, &serial);
+    }
+    std::vector<Ray> rays() const {
+        const RayGenerator camera(scene.camera, kSize);
+        std::vector<Ray> rays;
+        for (int y = 0; y < kSize.height; ++y)
+            for (int x = 0; x < kSize.width; ++x) rays.push_back(camera.ray(x, y));
+        return rays;
+    }
+
+    Scene scene;
+    Primitives primitives;
+    FastScene fast;
+    SerialTree serial;
+};
+
+TEST(SerialTree, IsNotBuiltForOrdinaryScenes) {
+    for (const char* file : {"testfiles/both.x3d", "testfiles/teapot.x3d"}) {
+        SCOPED_TRACE(file);
+        Subject subject(file);
+        subject.picture();
+        subject.hits(subject.rays());
+        EXPECT_FALSE(subject.serial.is_built());
+    }
+}
+
+TEST(SerialTree, ServesPixelsThatFloatsTellNothingOf) {
+    Subject subject("tests/fuzz/findings/small-shapes-beside-1e200.x3d");
+    const Image expected = exact_picture(subject.scene, subject.primitives, kSize);
+    EXPECT_EQ(difference(expected, subject.picture()), "");
+    EXPECT_TRUE(subject.serial.is_built());
+}
+
+TEST(SerialTree, ServesRaysThatFloatsTellNothingOf) {
+    Subject subject("tests/fuzz/findings/rays-that-floats-lose.x3d");
+    const std::vector<Ray> rays = subject.rays();
+    const auto expected = closest_hits(subject.scene, subject.primitives, &subject.serial.octree(),
+                                       exact_profile(), rays);
+    Subject again("tests/fuzz/findings/rays-that-floats-lose.x3d");
+    const auto found = again.hits(rays);
+    EXPECT_TRUE(again.serial.is_built());
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        EXPECT_EQ(found[i].hit, expected[i].hit);
+        EXPECT_EQ(found[i].t, expected[i].t);
+    }
+}
+
+}  // namespace
+}  // namespace nuvo::testing
