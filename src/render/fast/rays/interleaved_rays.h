@@ -63,8 +63,6 @@ class InterleavedRays {
     }
 
   private:
-    using NodeFloats = Lanes<float, kWideLanes>;
-    using NodeInts = Lanes<std::int32_t, kWideLanes>;
     static constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
     // The rays in one state. Read from the front while it is filled anew.
@@ -113,11 +111,11 @@ class InterleavedRays {
     HWY_INLINE void start_next(RayState& state) {
         while (next_ < batch_.size()) {
             const std::size_t index = next_++;
-            RayBlock& block = blocks_[index / RayBlock::kRays];
-            const std::size_t lane = index % RayBlock::kRays;
+            RayBlock& block = blocks_[index / RayLanes::kRays];
+            const std::size_t lane = index % RayLanes::kRays;
             if (lane == 0) block.prepare(batch_.subspan(index), rays_.scene().frame(), tree_.reach);
             if ((block.valid >> lane & 1) != 0) {
-                state.start(index, static_cast<std::uint32_t>(block.signs[lane]));
+                state.start(index, block.lanes);
                 at_nodes_.add(state, 1);
                 return;
             }
@@ -125,35 +123,31 @@ class InterleavedRays {
         }
     }
 
-    HWY_INLINE const RayBlock& block_of(const RayState& state) const {
-        return blocks_[state.index / RayBlock::kRays];
-    }
-
     // One node: what the ray meets of it waits on a level of its own.
     HWY_INLINE void step(RayState& state) const {
         const WideNode& node = tree_.nodes[state.next];
-        const RayBlock& ray = block_of(state);
-        const std::size_t lane = state.index % RayBlock::kRays;
+        const float* const inverses = state.rays->inverse[state.lane];
+        const float* const near_adds = state.rays->near_add[state.lane];
+        const float* const far_adds = state.rays->far_add[state.lane];
         const FacesOnRay& faces = kFacesBySigns[state.signs];
-        NodeFloats first(0.0F);
-        NodeFloats last(state.best);
+        Floats first(0.0F);
+        Floats last(state.best);
         for (int axis = 0; axis < 3; ++axis) {
-            const NodeFloats inverse(ray.inverse[axis][lane]);
-            first = max(mul_add(NodeFloats::load(node.face + faces.near[axis]), inverse,
-                                NodeFloats(ray.near_add[axis][lane])),
+            const Floats inverse(inverses[axis]);
+            first = max(mul_add(Floats::load(node.face + faces.near[axis]), inverse,
+                                Floats(near_adds[axis])),
                         first);
-            last = min(mul_add(NodeFloats::load(node.face + faces.far[axis]), inverse,
-                               NodeFloats(ray.far_add[axis][lane])),
-                       last);
+            last = min(
+                mul_add(Floats::load(node.face + faces.far[axis]), inverse, Floats(far_adds[axis])),
+                last);
         }
-        alignas(64) static constexpr std::int32_t kShift[kWideLanes] = {0,  4,  8,  12,
-                                                                        16, 20, 24, 28};
-        const NodeInts order =
-            NodeInts(static_cast<std::int32_t>(node.order[state.signs])) >> NodeInts::load(kShift);
-        const NodeFloats entry = first.permuted(order);
+        alignas(64) static constexpr std::int32_t kShift[kWideLanes] = {
+            0, 0, 4, 4, 8, 8, 12, 12, 16, 16, 20, 20, 24, 24, 28, 28};
+        const Ints order = Ints::pairs(node.order[state.signs]) >> Ints::load(kShift);
+        const Floats entry = first.permuted(order);
         RayState::Level& level = *state.top;
         entry.store(level.entry);
-        NodeInts::load(reinterpret_cast<const std::int32_t*>(node.child))
+        Ints::load(reinterpret_cast<const std::int32_t*>(node.child))
             .permuted(order)
             .store(reinterpret_cast<std::int32_t*>(level.child));
         level.waiting = (entry <= last.permuted(order)).bits();
@@ -181,13 +175,11 @@ class InterleavedRays {
         const std::uint32_t* const behind =
             head.more ? other_slots + others + std::size_t{4} * spheres + (9 * triangles + 1) / 2
                       : nullptr;
-        const RayBlock& ray = block_of(state);
-        const std::size_t lane = state.index % RayBlock::kRays;
-        if (power_of_two(head.finest) < static_cast<double>(ray.least_unit[lane])) {
+        if (power_of_two(head.finest) < static_cast<double>(state.rays->direction[state.lane][3])) {
             add_open(state, slots, triangles + spheres + others);
             return behind;
         }
-        const RayAtLeaf at(ray, lane, head, state.next_entry);
+        const RayAtLeaf at(*state.rays, state.lane, head, state.next_entry);
         for (std::uint32_t i = 0; i < triangles; i += kLeafLanes)
             take(state, at,
                  test_triangles(at, corners + i, triangles, triangles - i, front_only(slots + i),
@@ -233,7 +225,7 @@ class InterleavedRays {
     HWY_INLINE void drop_levels(RayState& state) const {
         RayState::Level* free = state.levels + 1;
         for (RayState::Level* level = free; level != state.top; ++level) {
-            level->waiting &= (NodeFloats::load(level->entry) <= NodeFloats(state.best)).bits();
+            level->waiting &= (Floats::load(level->entry) <= Floats(state.best)).bits();
             if (level->waiting == 0) continue;
             if (level != free) *free = *level;
             ++free;
@@ -281,16 +273,13 @@ class InterleavedRays {
     const WideOctree& tree_;
     std::span<const Ray> batch_;
     Slot* found_ = nullptr;
-    // Asking for a voxel's memory when it is chosen pays where the second cache cannot hold them
-    // all, and costs little where it can. Below this the first one nearly does.
-    static constexpr std::size_t kCached = 1 << 17;
-    const bool prefetches_ = tree_.memory_bytes() > kCached;
+    const bool prefetches_ = tree_.memory_bytes() > SingleRays::kCached;
     std::size_t next_ = 0;
     Queue at_nodes_;
     Queue at_leaves_;
     Queue finished_;
     RayState states_[kInterleaved];
-    RayBlock blocks_[kRayBatch / RayBlock::kRays];
+    RayBlock blocks_[kRayBatch / RayLanes::kRays];
 };
 
 }  // namespace nuvo::HWY_NAMESPACE

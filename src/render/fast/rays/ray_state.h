@@ -44,6 +44,19 @@ constexpr std::array<FacesOnRay, 8> faces_by_signs() {
 }
 inline constexpr std::array<FacesOnRay, 8> kFacesBySigns = faces_by_signs();
 
+/// What LocalRay is, of 16 rays, each with four numbers side by side.
+struct RayLanes {
+    static constexpr std::size_t kRays = 16;
+
+    alignas(64) float inverse[kRays][4];  ///< the fourth: behind
+    float near_add[kRays][4];             ///< the fourth: square
+    float far_add[kRays][4];              ///< the fourth: error
+    float direction[kRays][4];            ///< the fourth: least_unit
+    double origin[kRays][4];              ///< the fourth: 0
+    double step[kRays][4];                ///< the fourth: 0
+    std::int32_t signs[kRays];
+};
+
 struct RayState {
     static constexpr std::size_t kMaxCandidates = 32;
     static constexpr std::uint32_t kFinished = 1U << 30;
@@ -63,14 +76,18 @@ struct RayState {
     Level* top = nullptr;     ///< the first free level; something waits in each below it
     std::uint32_t signs = 0;  ///< of the direction: which of WideNode::order
     std::size_t index = 0;    ///< among the batch's rays
+    const RayLanes* rays = nullptr;
+    std::size_t lane = 0;  ///< among these
     /// The first one holds only kFinished.
     Level levels[CompactOctree::kMaxDepth + 2];
     RayCandidate candidates[kMaxCandidates];
 
     /// Sets out for the root.
-    void start(std::size_t ray_index, std::uint32_t ray_signs) {
+    void start(std::size_t ray_index, const RayLanes& ray_lanes) {
         index = ray_index;
-        signs = ray_signs;
+        rays = &ray_lanes;
+        lane = ray_index % RayLanes::kRays;
+        signs = static_cast<std::uint32_t>(ray_lanes.signs[lane]);
         best = std::numeric_limits<float>::infinity();
         candidate_count = 0;
         levels[0].entry[0] = 0;

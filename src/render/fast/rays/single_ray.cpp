@@ -177,8 +177,9 @@ inline void SingleRays::prefetch(std::span<const Slot> found) const {
 }
 
 void SingleRays::answer(std::span<const Ray> rays, const Slot* found, RayAnswer* answers) const {
-    prefetch({found, rays.size()});
+    if (tree_.memory_bytes() > kCached) prefetch({found, rays.size()});
     TriangleRoots roots;
+    roots.only_roots = true;
     std::array<std::size_t, TriangleRoots::kCount> ray_of;
     std::size_t count = 0;
     const auto finish = [&] {

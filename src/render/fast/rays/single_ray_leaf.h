@@ -9,7 +9,7 @@
 #include <bit>
 #include <limits>
 
-#include "fast/rays/ray_block.h"
+#include "fast/rays/ray_state.h"
 #include "fast/rays/wide_octree.h"
 #include "fast/simd/lanes.h"
 
@@ -76,24 +76,24 @@ HWY_INLINE std::uint32_t first_lanes(std::uint32_t count) {
 
 /// A ray at one leaf.
 struct RayAtLeaf {
-    HWY_INLINE RayAtLeaf(const RayBlock& block, std::size_t lane, const WideLeafHead& head,
+    HWY_INLINE RayAtLeaf(const RayLanes& rays, std::size_t lane, const WideLeafHead& head,
                          float entry_at)
-        : square(block.square[lane]),
-          point_error(block.error[lane]),
-          behind(block.behind[lane]),
+        : behind(rays.inverse[lane][3]),
+          square(rays.near_add[lane][3]),
+          point_error(rays.far_add[lane][3]),
           entry(entry_at) {
-        float sum = 0;
-        for (int axis = 0; axis < 3; ++axis) {
-            const double inverse = power_of_two(-head.exponent[axis]);
-            const double p =
-                block.origin[axis][lane] + static_cast<double>(entry) * block.step[axis][lane];
-            from[axis] = static_cast<float>(p);
-            at[axis] = static_cast<float>((p - static_cast<double>(head.base[axis])) * inverse);
-            direction[axis] = block.direction[axis][lane];
-            step[axis] = direction[axis] * static_cast<float>(inverse);
-            sum += std::fabs(step[axis]);
+        // Four numbers each, so that the compiler makes vectors of them.
+        const float base[4] = {head.base[0], head.base[1], head.base[2], 0};
+        const std::int8_t exponent[4] = {head.exponent[0], head.exponent[1], head.exponent[2], 0};
+        for (int i = 0; i < 4; ++i) {
+            const double inverse = power_of_two(-exponent[i]);
+            const double p = rays.origin[lane][i] + static_cast<double>(entry) * rays.step[lane][i];
+            from[i] = static_cast<float>(p);
+            at[i] = static_cast<float>((p - static_cast<double>(base[i])) * inverse);
+            direction[i] = rays.direction[lane][i];
+            step[i] = direction[i] * static_cast<float>(inverse);
         }
-        step_sum = sum * (1 + 0x1p-20F);
+        step_sum = (std::fabs(step[0]) + std::fabs(step[1]) + std::fabs(step[2])) * (1 + 0x1p-20F);
     }
     /// Bounds on s from `along`, known within `error`.
     HWY_INLINE void set_interval(LeafHits& hits, const LeafFloats& along,
@@ -106,15 +106,15 @@ struct RayAtLeaf {
         hits.high = s + slack;
     }
 
-    float direction[3];
-    float step[3];   ///< the direction in units of the leaf's grid
-    float step_sum;  ///< bounds |step.x| + |step.y| + |step.z|
-    float square;    ///< the next three: as in LocalRay
+    alignas(16) float direction[4];  ///< here and below the fourth is unused
+    float step[4];                   ///< the direction in units of the leaf's grid
+    float from[4];                   ///< the point of entry, local
+    float at[4];                     ///< the same on the leaf's grid
+    float step_sum;                  ///< bounds |step.x| + |step.y| + |step.z|
+    float behind;                    ///< these three: as in LocalRay
+    float square;
     float point_error;
-    float behind;
     float entry;
-    float from[3];  ///< the point of entry, local
-    float at[3];    ///< the same on the leaf's grid
 };
 
 /// 8 corners of the leaf's triangles, seen from the ray's point.

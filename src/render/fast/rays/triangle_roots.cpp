@@ -101,13 +101,14 @@ void find_roots(TriangleRoots& roots, std::size_t count) {
                               (abs(slope) >= normal.error(d, 1 / kShare));
         const PairMask known =
             sure & (t > Doubles8(detail::kSmallestRoot)) & (t < Doubles8(detail::kLargestRoot));
+        t.store(roots.t + i);
+        roots.found |= known.bits() << i;
+        if (roots.only_roots) continue;
         const Sides8 sides(d, toward, b - o, c - o);
         // The edge functions add up to -n.d: of a front all are positive.
         const PairMask front = PairMask::from_bits(roots.front_only >> i & 0xff);
         const PairMask inside = sides.all_positive | without(sides.all_negative, front);
         const PairMask outside = sides.any_negative & (sides.any_positive | front);
-        t.store(roots.t + i);
-        roots.found |= known.bits() << i;
         roots.hit |= (known & inside).bits() << i;
         roots.missed |= (outside | (sure & (t < Doubles8(0.0)))).bits() << i;
     }

@@ -29,6 +29,7 @@ struct alignas(64) TriangleRoots {
     std::uint32_t found;           ///< the plane is met at a t > 0 that is known
     std::uint32_t hit;             ///< `found`, and surely within the triangle
     std::uint32_t missed;          ///< surely not met at a t > 0
+    bool only_roots = false;       ///< the line is known to meet the triangles: `found` alone
 
     void set(std::size_t i, const Ray& ray, const Point3& at, const Point3& bt, const Point3& ct) {
         for (int axis = 0; axis < 3; ++axis) {

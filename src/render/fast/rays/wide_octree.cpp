@@ -28,7 +28,7 @@ namespace {
 // primitives would have, each listed once, is the price of memory.
 constexpr float kNodeCost = 1;
 constexpr float kLeafCost = 1.5F;
-constexpr float kBlockCost = 1.5F;
+constexpr float kBlockCost = 1;
 constexpr float kMemoryCost = 0.1F;
 // A primitive at most so many times as wide as a leaf's voxel is listed in one leaf only.
 constexpr float kLoose = 2;
@@ -76,12 +76,10 @@ class WideBuilder {
         measure(0, octree_.bounds);
         out_.nodes.emplace_back(WideNode{});
         constexpr std::uint64_t kBehindLarge = std::uint64_t{1} << 63;
-        const std::size_t lanes = kWideLanes - voxels.size();
-        const CompactNode& root = octree_.nodes[0];
-        if (voxels_[0].leaf || std::popcount(root.mask()) > static_cast<int>(lanes))
+        if (voxels_[0].leaf)
             voxels.push_back({0, kBehindLarge, kFirstShift});
         else
-            distribute({0, kBehindLarge, kFirstShift + 3}, lanes, voxels);
+            distribute({0, kBehindLarge, kFirstShift + 3}, kWideLanes - voxels.size(), voxels);
         fill(0, voxels);
         // The widest load begins at the last word.
         out_.leaves.resize(out_.leaves.size() + kLeafLanes, 0);
@@ -302,7 +300,8 @@ class WideBuilder {
                     });
                 lanes[static_cast<std::size_t>(nearer)] = static_cast<std::uint32_t>(i);
             }
-            for (std::size_t i = 0; i < kWideLanes; ++i) node.order[signs] |= lanes[i] << (4 * i);
+            for (std::size_t i = 0; i < kWideLanes; ++i)
+                node.order[signs][i % 2] |= lanes[i] << (4 * (i / 2));
         }
     }
 

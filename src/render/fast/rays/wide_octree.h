@@ -8,25 +8,25 @@
 #include "nuvo/math/big_vector.h"
 
 // The octree as single rays like it. A ray of its own has no neighbours to share a step with, so a
-// step is made to decide more: a node holds up to 8 voxels of one, two or three levels below it
+// step is made to decide more: a node holds up to 16 voxels of one, two or three levels below it
 // (Dammertz, Hanika and Keller 2008, "Shallow bounding volume hierarchies"), each with the tight
 // box of what it holds instead of its planes, and a leaf holds about as many primitives as are
 // tested at once. Subtrees that these boxes and leaves make needless are taken back.
 
 namespace nuvo {
 
-inline constexpr std::size_t kWideLanes = 8;  ///< of a node
-inline constexpr std::size_t kLeafLanes = 8;  ///< few leaves would fill more
+inline constexpr std::size_t kWideLanes = 16;  ///< of a node
+inline constexpr std::size_t kLeafLanes = 8;   ///< few leaves would fill more
 
 /// Voxels side by side; behind the last one boxes that no ray meets (low +inf, high -inf).
 struct alignas(64) WideNode {
     float face[6 * kWideLanes];       ///< low x of all, low y, low z, high x, high y, high z
     std::uint32_t child[kWideLanes];  ///< index of a node; with WideOctree::kLeaf: place of a leaf
     /// The lanes from near to far for rays whose direction's sign bits are 1 x + 2 y + 4 z: number
-    /// i stands in bits 4 i to 4 i + 3. What separates two voxels is a plane of the octree, so that
-    /// one order serves all rays of the same signs. (A box may reach out of its voxel: the order is
-    /// for speed.)
-    std::uint32_t order[8];
+    /// i stands in bits 4 (i / 2) to 4 (i / 2) + 3 of word i % 2. What separates two voxels is a
+    /// plane of the octree, so that one order serves all rays of the same signs. (A box may reach
+    /// out of its voxel: the order is for speed.)
+    std::uint32_t order[8][2];
 };
 
 /// Copies of primitives of a leaf, side by side, in 32-bit words from its place on: this head, then
