@@ -202,6 +202,116 @@ TEST(SingleRays, AnswerAsBruteForceWhereTinyAndHugeMeet) {
     EXPECT_GT(expect_equal(scene, rays_for(scene, 41, 3000)), 1000);
 }
 
+// Flat scenes: a few triangles as wide as all, which stand apart at the root, small ones on them,
+// and rays hardly inclined to them.
+TEST(SingleRays, AnswerAsBruteForceOverFloorsOfAnyWidth) {
+    for (const double width : {8.0, 1e3, 1e6, 1e12}) {
+        SCOPED_TRACE("width " + std::to_string(width));
+        Scene scene;
+        TriangleMesh floor;
+        floor.positions = {{-width, -width, 0}, {width, -width, 0},   {width, width, 0},
+                           {-width, width, 0},  {-width, -width, -1}, {width, width, -1}};
+        floor.triangles = {{0, 1, 2}, {0, 2, 3}, {4, 5, 1}};
+        scene.objects.push_back({floor});
+        std::mt19937_64 random(43);
+        for (int i = 0; i < 60; ++i) {
+            const double size = uniform(random, 0.05, 0.2);
+            const Point3 at = uniform_point(random, 2);
+            scene.objects.push_back({octahedron({at.x, at.y, size}, size)});
+        }
+        finish(scene);
+        EXPECT_GT(expect_equal(scene, rays_for(scene, 43, 1000)), 200);
+    }
+}
+
+// Vectors of doubles say of a pair only what the exact predicates say, and leave little open.
+TEST(PairRoots, AreThoseOfTheExactPredicates) {
+    std::mt19937_64 random(44);
+    const auto coordinate = [&] { return static_cast<double>(random() % 9) - 4; };
+    const auto point = [&](int kind) -> Point3 {  // on a grid, where much is zero; or anywhere
+        if (kind == 0) return {coordinate(), coordinate(), coordinate()};
+        return uniform_point(random, kind == 1 ? 4 : 0x1p-300);
+    };
+    for (const InstructionSet isa : supported_instruction_sets()) {
+        SCOPED_TRACE("instruction set " + std::to_string(static_cast<int>(isa)));
+        const PairRootStage stage(isa);
+        int open = 0;
+        int hits = 0;
+        for (int round = 0; round < 600; ++round) {
+            PairRoots roots;
+            std::array<Ray, PairRoots::kCount> rays;
+            std::array<Triangle, PairRoots::kCount> triangles;
+            for (std::size_t i = 0; i < PairRoots::kCount; ++i) {
+                const int kind = round % 3;
+                const Point3 origin = point(kind);
+                rays[i] = {origin, point(kind) - origin};
+                triangles[i] = {point(kind), point(kind), point(kind)};
+                roots.set(i, rays[i], triangles[i].a, triangles[i].b, triangles[i].c);
+            }
+            roots.front_only = static_cast<std::uint32_t>(random());
+            stage.find_triangles(roots, PairRoots::kCount);
+            for (std::size_t i = 0; i < PairRoots::kCount; ++i) {
+                const auto bit = [i](std::uint32_t bits) { return (bits >> i & 1) != 0; };
+                StageCounts counts;
+                const auto root = hit(ExactRay(rays[i]), triangles[i], counts,
+                                      bit(roots.front_only) ? Sides::kFront : Sides::kBoth);
+                hits += bit(roots.hit);
+                open += round % 3 == 1 && !bit(roots.hit) && !bit(roots.missed);
+                EXPECT_FALSE(bit(roots.hit) && bit(roots.missed));
+                if (bit(roots.hit)) {
+                    ASSERT_TRUE(root) << "round " << round << ", pair " << i;
+                    EXPECT_EQ(roots.t[i], root->t) << "round " << round << ", pair " << i;
+                }
+                if (bit(roots.missed)) {
+                    EXPECT_FALSE(root) << "round " << round << ", pair " << i;
+                }
+            }
+        }
+        EXPECT_GT(hits, 200);
+        EXPECT_LT(open, 100);  // of 6,400
+    }
+}
+
+TEST(PairRoots, OfSpheresAreThoseOfTheExactPredicates) {
+    std::mt19937_64 random(45);
+    for (const InstructionSet isa : supported_instruction_sets()) {
+        SCOPED_TRACE("instruction set " + std::to_string(static_cast<int>(isa)));
+        const PairRootStage stage(isa);
+        int found = 0;
+        int hits = 0;
+        for (int round = 0; round < 600; ++round) {
+            PairRoots roots;
+            std::array<Ray, PairRoots::kCount> rays;
+            std::array<Sphere, PairRoots::kCount> spheres;
+            for (std::size_t i = 0; i < PairRoots::kCount; ++i) {
+                // Origins outside, inside, and now and then on the surface; tangents, too.
+                const double size = round % 8 == 7 ? 0x1p-500 : 1;
+                const Point3 origin = uniform_point(random, 4 * size);
+                rays[i] = {origin, uniform_point(random, size) - origin};
+                spheres[i] = {uniform_point(random, size), uniform(random, 0, 3) * size};
+                if (i % 8 == 0) rays[i] = {{2, 0, 0}, {0, 1, 0}};
+                if (i % 8 == 0) spheres[i] = {{static_cast<double>(random() % 3), 0, 0}, 2};
+                roots.set(i, rays[i], spheres[i]);
+            }
+            roots.front_only = static_cast<std::uint32_t>(random());
+            stage.find_spheres(roots, PairRoots::kCount);
+            for (std::size_t i = 0; i < PairRoots::kCount; ++i) {
+                const bool front = (roots.front_only >> i & 1) != 0;
+                StageCounts counts;
+                const auto expected = hit(ExactRay(rays[i]), spheres[i], counts,
+                                          front ? Sides::kFront : Sides::kBoth);
+                hits += expected.has_value();
+                if ((roots.found >> i & 1) == 0) continue;
+                ++found;
+                ASSERT_TRUE(expected) << "round " << round << ", pair " << i;
+                EXPECT_EQ(roots.t[i], expected->root.t) << "round " << round << ", pair " << i;
+            }
+        }
+        EXPECT_GT(found, 5000);
+        EXPECT_GT(found, hits * 3 / 4);
+    }
+}
+
 // More of the same than a leaf's counts hold, and equal t throughout.
 TEST(SingleRays, TakeTheFirstOfHundredsThatCoincide) {
     Scene scene;

@@ -96,12 +96,12 @@ std::optional<RayCandidate> SingleRays::decide(const Ray& ray, const LocalRay& l
 
 std::optional<SingleRays::Nearest> SingleRays::nearest_of(const Ray& ray,
                                                           std::span<Slot> slots) const {
-    static_assert(RayState::kMaxCandidates <= TriangleRoots::kCount);
+    static_assert(RayState::kMaxCandidates <= PairRoots::kCount);
     const auto triangles = static_cast<std::size_t>(
         std::lower_bound(slots.begin(), slots.end(), scene_.triangle_end()) - slots.begin());
-    TriangleRoots roots;
+    PairRoots roots;
     for (std::size_t i = 0; i < triangles; ++i) set_pair(roots, i, ray, slots[i]);
-    roots_.find(roots, triangles);
+    roots_.find_triangles(roots, triangles);
     double end = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < triangles; ++i)
         if ((roots.hit >> i & 1) != 0) end = std::min(end, roots.t[i] * (1 + root_tolerance()));
@@ -137,15 +137,30 @@ double SingleRays::root_of(const Ray& ray, Slot slot) const {
     return kernel_.hit_of(kernel_.prepare(ray), scene_.id(slot))->root.t;
 }
 
-void SingleRays::set_pair(TriangleRoots& roots, std::size_t i, const Ray& ray, Slot slot) const {
+void SingleRays::set_pair(PairRoots& roots, std::size_t i, const Ray& ray, Slot slot) const {
     const PrimitiveSource& source = scene_.source(slot);
     const MeshPlace& mesh = meshes_[source.object];
-    const IndexTriple& corners = mesh.triangles[source.triangle];
-    roots.set(i, ray, mesh.positions[corners[0]], mesh.positions[corners[1]],
-              mesh.positions[corners[2]]);
+    if (mesh.triangles == nullptr) {
+        roots.set(i, ray, std::get<Sphere>(scene_.scene().objects[source.object].shape));
+    } else {
+        const IndexTriple& corners = mesh.triangles[source.triangle];
+        roots.set(i, ray, mesh.positions[corners[0]], mesh.positions[corners[1]],
+                  mesh.positions[corners[2]]);
+    }
     const std::uint32_t bit = std::uint32_t{1} << i;
     roots.front_only = mesh.front_only ? roots.front_only | bit : roots.front_only & ~bit;
 }
+
+namespace {
+
+// Rays whose roots are still to be found.
+struct Pending {
+    PairRoots roots;
+    std::array<std::size_t, PairRoots::kCount> ray;
+    std::size_t count = 0;
+};
+
+}  // namespace
 
 // Each step asks for memory by what the one before has fetched: for all rays a step before the
 // next.
@@ -178,18 +193,17 @@ inline void SingleRays::prefetch(std::span<const Slot> found) const {
 
 void SingleRays::answer(std::span<const Ray> rays, const Slot* found, RayAnswer* answers) const {
     if (tree_.memory_bytes() > kCached) prefetch({found, rays.size()});
-    TriangleRoots roots;
-    roots.only_roots = true;
-    std::array<std::size_t, TriangleRoots::kCount> ray_of;
-    std::size_t count = 0;
-    const auto finish = [&] {
-        roots_.find(roots, count);
-        for (std::size_t i = 0; i < count; ++i) {
-            const std::size_t ray = ray_of[i];
-            const bool known = (roots.found >> i & 1) != 0;
-            answers[ray].t = known ? roots.t[i] : root_of(rays[ray], found[ray]);
+    Pending triangles;
+    Pending spheres;
+    triangles.roots.only_roots = true;
+    const auto finish = [&](Pending& some, auto find) {
+        (roots_.*find)(some.roots, some.count);
+        for (std::size_t i = 0; i < some.count; ++i) {
+            const std::size_t ray = some.ray[i];
+            const bool known = (some.roots.found >> i & 1) != 0;
+            answers[ray].t = known ? some.roots.t[i] : root_of(rays[ray], found[ray]);
         }
-        count = 0;
+        some.count = 0;
     };
     for (std::size_t i = 0; i < rays.size(); ++i) {
         if (found[i] == kNoSlot) {
@@ -198,15 +212,19 @@ void SingleRays::answer(std::span<const Ray> rays, const Slot* found, RayAnswer*
         }
         const PrimitiveSource& source = scene_.source(found[i]);
         answers[i] = {true, meshes_[source.object].shape, source.triangle, 0};
-        if (found[i] >= scene_.triangle_end()) {
+        if (found[i] >= scene_.sphere_end()) {
             answers[i].t = root_of(rays[i], found[i]);
             continue;
         }
-        ray_of[count] = i;
-        set_pair(roots, count++, rays[i], found[i]);
-        if (count == TriangleRoots::kCount) finish();
+        const bool is_triangle = found[i] < scene_.triangle_end();
+        Pending& some = is_triangle ? triangles : spheres;
+        some.ray[some.count] = i;
+        set_pair(some.roots, some.count++, rays[i], found[i]);
+        if (some.count < PairRoots::kCount) continue;
+        finish(some, is_triangle ? &PairRootStage::find_triangles : &PairRootStage::find_spheres);
     }
-    finish();
+    finish(triangles, &PairRootStage::find_triangles);
+    finish(spheres, &PairRootStage::find_spheres);
 }
 
 Slot SingleRays::brute_force(const Ray& ray) const {

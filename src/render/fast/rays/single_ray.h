@@ -8,8 +8,8 @@
 
 #include "exact_kernel.h"
 #include "fast/rays/local_ray.h"
+#include "fast/rays/pair_roots.h"
 #include "fast/rays/ray_state.h"
-#include "fast/rays/triangle_roots.h"
 #include "fast/rays/wide_octree.h"
 #include "fast/scene/serial_tree.h"
 #include "nuvo/render/fast.h"
@@ -80,13 +80,13 @@ class SingleRays {
     std::optional<Nearest> exactly_nearest_of(const Ray& ray, std::span<const Slot> slots) const;
     // As a function of its own g++ takes it for one without effects, and leaves it out.
     [[gnu::always_inline]] void prefetch(std::span<const Slot> found) const;
-    void set_pair(TriangleRoots& roots, std::size_t i, const Ray& ray, Slot slot) const;
+    void set_pair(PairRoots& roots, std::size_t i, const Ray& ray, Slot slot) const;
 
     const FastScene& scene_;
     Kernel kernel_;
     WideOctree tree_;
     std::vector<MeshPlace> meshes_;  // by object
-    TriangleRootStage roots_;
+    PairRootStage roots_;
     float bounds_scale_;
     std::size_t (*walk_)(const SingleRays&, std::span<const Ray>, bool, RayAnswer*);
     mutable std::uint64_t rays_ = 0;   // answered

@@ -1,9 +1,9 @@
-#include "fast/rays/triangle_roots.h"
+#include "fast/rays/pair_roots.h"
 
 #include "nuvo/geometry/predicates.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "fast/rays/triangle_roots.cpp"
+#define HWY_TARGET_INCLUDE "fast/rays/pair_roots.cpp"
 #include <hwy/foreach_target.h>
 
 #include "fast/simd/lanes.h"
@@ -20,12 +20,15 @@ using Doubles8 = Lanes<double, 8>;
 struct Vectors8 {
     Doubles8 x, y, z;
 
-    static HWY_INLINE Vectors8 load(const double (*from)[TriangleRoots::kCount], std::size_t i) {
+    static HWY_INLINE Vectors8 load(const double (*from)[PairRoots::kCount], std::size_t i) {
         return {Doubles8::load(from[0] + i), Doubles8::load(from[1] + i),
                 Doubles8::load(from[2] + i)};
     }
     friend HWY_INLINE Vectors8 operator-(const Vectors8& p, const Vectors8& q) {
         return {p.x - q.x, p.y - q.y, p.z - q.z};
+    }
+    friend HWY_INLINE Doubles8 dot(const Vectors8& p, const Vectors8& q) {
+        return p.x * q.x + p.y * q.y + p.z * q.z;
     }
 };
 
@@ -83,7 +86,7 @@ struct Sides8 {
     }
 };
 
-void find_roots(TriangleRoots& roots, std::size_t count) {
+void find_triangle_roots(PairRoots& roots, std::size_t count) {
     constexpr double kShare = 0.4375 * root_tolerance();
     roots.found = roots.hit = roots.missed = 0;
     for (std::size_t i = 0; i < count; i += 8) {
@@ -114,6 +117,57 @@ void find_roots(TriangleRoots& roots, std::size_t count) {
     }
 }
 
+// rounded_quadratic() and rounded_hit() of spheres that are hit, with the same bounds.
+void find_sphere_roots(PairRoots& roots, std::size_t count) {
+    constexpr double kShare = 0.4375 * root_tolerance();
+    static_assert(gamma(6) <= kShare);  // of a
+    roots.found = 0;
+    for (std::size_t i = 0; i < count; i += 8) {
+        const Vectors8 f = Vectors8::load(roots.origin, i) - Vectors8::load(roots.a, i);
+        const Vectors8 d = Vectors8::load(roots.direction, i);
+        const Doubles8 r = Doubles8::load(roots.b[0] + i);
+        const Doubles8 a = dot(d, d);
+        const Doubles8 length = sqrt(a);
+        const Doubles8 b = dot(f, d);
+        const Doubles8 along = b * (Doubles8(1.0) / a);
+        const Vectors8 l{f.x - d.x * along, f.y - d.y * along, f.z - d.z * along};
+        const Doubles8 ff = dot(f, f);
+        const Doubles8 rr = r * r;
+        const Doubles8 ll = dot(l, l);
+        const Doubles8 squares = ff + rr;
+        const Doubles8 f_norm = sqrt(ff);
+        const Doubles8 c = ff - rr;
+        const Doubles8 depth = rr - ll;
+        const Doubles8 b_error = f_norm * length * Doubles8(gamma(7));
+        const Doubles8 c_error = squares * Doubles8(gamma(8));
+        const Doubles8 depth_error = sqrt(ll) * f_norm * Doubles8(gamma(8)) +
+                                     (ll + rr) * Doubles8(gamma(8)) +
+                                     ff * Doubles8(gamma(16) * gamma(32));
+        const PairMask in_range = (a > Doubles8(0x1p-800)) & (a < Doubles8(0x1p800)) &
+                                  (squares > Doubles8(detail::kSmallestSquare)) &
+                                  (squares < Doubles8(detail::kLargestSquare));
+        const PairMask inside = c < -c_error;
+        const PairMask enters = (c > c_error) & (b < -b_error) & (depth > depth_error);
+        // sqrt(1 + x) differs from 1 by less than 0.54 |x| for |x| < 1/4.
+        const Doubles8 part = length * sqrt(depth);
+        const Doubles8 relative = depth_error / depth;
+        const Doubles8 part_error =
+            part * (relative * Doubles8(0.5625) + Doubles8(gamma(6)) + Doubles8(gamma(4)));
+        const Doubles8 sum = abs(b) + part;
+        const Doubles8 sum_error = b_error + part_error + sum * Doubles8(gamma(1));
+        const PairMask near = enters | (inside & (b > Doubles8(0.0)));
+        const Doubles8 t = select(near, abs(c) / sum, sum / a);
+        const PairMask front = PairMask::from_bits(roots.front_only >> i & 0xff);
+        const PairMask known =
+            in_range & (enters | without(inside, front)) & (depth > Doubles8(0.0)) &
+            (relative < Doubles8(0.25)) & (sum_error <= sum * Doubles8(kShare)) &
+            (c_error <= abs(c) * Doubles8(kShare)) & (t > Doubles8(detail::kSmallestRoot)) &
+            (t < Doubles8(detail::kLargestRoot));
+        t.store(roots.t + i);
+        roots.found |= known.bits() << i;
+    }
+}
+
 }  // namespace nuvo::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -122,8 +176,9 @@ HWY_AFTER_NAMESPACE();
 
 namespace nuvo {
 
-TriangleRootStage::TriangleRootStage(InstructionSet isa)
-    : find_(NUVO_FOR_ISA(resolved(isa), find_roots)) {}
+PairRootStage::PairRootStage(InstructionSet isa)
+    : triangles_(NUVO_FOR_ISA(resolved(isa), find_triangle_roots)),
+      spheres_(NUVO_FOR_ISA(resolved(isa), find_sphere_roots)) {}
 
 }  // namespace nuvo
 #endif
