@@ -4,6 +4,7 @@
 #include <boost/program_options.hpp>
 #include <map>
 #include <numeric>
+#include <thread>
 
 #include "nuvo/image/picture_file.h"
 
@@ -313,6 +314,11 @@ void check_combinations(const Options& options, const std::map<std::string, std:
 bool Options::standard_output_taken() const {
     return out == kStandardStream || json == kStandardStream || study_json == kStandardStream ||
            (rays && !out);
+}
+
+int Options::thread_count() const {
+    return threads > 0 ? threads
+                       : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
 Resolution Options::traced_resolution() const {

@@ -76,7 +76,7 @@ class TileRun {
           walked_(as_serial(profile)),
           meter_(meter),
           options_(fast_options(options, profile, meter.begin("building"))),
-          primitives_(flatten(scene, LeafContent::kPrimitives)),
+          primitives_(flatten(scene, LeafContent::kPrimitives, options_.threads)),
           tracer_(scene, primitives_, options_) {}
 
     Image picture(Resolution resolution) { return tracer_.render(resolution); }
@@ -182,9 +182,7 @@ FastOptions fast_options(const Options& options, const Profile& profile, Progres
     fast.back_faces = profile.back_faces;
     fast.isa =
         options.isa == InstructionSet::kBest ? supported_instruction_sets().front() : options.isa;
-    fast.threads = options.threads > 0
-                       ? options.threads
-                       : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    fast.threads = options.thread_count();
     return fast;
 }
 

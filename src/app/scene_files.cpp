@@ -111,7 +111,8 @@ LoadedScene load(const Options& options, Meter& meter) {
                                options.strict,
                                options.defaults(),
                                meter.begin("reading"),
-                               options.answer_parts.def ? &loaded.shape_names : nullptr};
+                               options.answer_parts.def ? &loaded.shape_names : nullptr,
+                               options.thread_count()};
     const StageStopwatch watch;
     loaded.scene =
         piped ? x3d::read_text(read_standard_input(options.limits.file_bytes, how.progress),

@@ -1,10 +1,14 @@
 #include "fields.h"
 
 #include <algorithm>
+#include <atomic>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <type_traits>
+#include <utility>
+
+#include "nuvo/math/parallel.h"
 
 namespace nuvo::x3d {
 
@@ -66,6 +70,48 @@ void skip_separators(std::string_view& text) {
     std::size_t begin = 0;
     while (begin < text.size() && is_separator(text[begin])) ++begin;
     text.remove_prefix(begin);
+}
+
+/// Texts of about `size` bytes each, which meet at separators.
+std::vector<std::string_view> parts_of(std::string_view text, std::size_t size) {
+    std::vector<std::string_view> parts;
+    while (!text.empty()) {
+        std::size_t end = std::min(size, text.size());
+        while (end < text.size() && !is_separator(text[end])) ++end;
+        parts.push_back(text.substr(0, end));
+        text.remove_prefix(end);
+    }
+    return parts;
+}
+
+/// Reads a long text's numbers on several threads. False, and nothing read, where it is short or
+/// some number is not in the plainest form: who reads it from its beginning tells which is wrong.
+template <typename T>
+bool read_in_parts(std::string_view text, int threads, BigVector<T>& values) {
+    constexpr std::size_t kPart = std::size_t{1} << 17;
+    if (text.size() < 2 * kPart) return false;
+    const std::vector<std::string_view> parts = parts_of(text, kPart);
+    std::vector<BigVector<T>> read(parts.size());
+    std::atomic<bool> plain = true;
+    for_each_index(threads, parts.size(), [&](std::size_t i, int) {
+        std::string_view rest = parts[i];
+        for (skip_separators(rest); !rest.empty() && plain; skip_separators(rest)) {
+            T value{};
+            if (!take_number(rest, value)) plain = false;
+            read[i].push_back(value);
+        }
+    });
+    if (!plain) return false;
+    std::vector<std::size_t> begin;
+    std::size_t count = 0;
+    for (const BigVector<T>& part : read)
+        begin.push_back(std::exchange(count, count + part.size()));
+    values.resize(count);
+    for_each_index(threads, parts.size(), [&](std::size_t i, int) {
+        std::copy(read[i].begin(), read[i].end(),
+                  values.begin() + static_cast<std::ptrdiff_t>(begin[i]));
+    });
+    return true;
 }
 
 std::string in_quotes(std::string_view word) {
@@ -138,6 +184,7 @@ BigVector<T> Fields::words(std::string_view name) const {
     const std::string_view* text = element_.find(name);
     if (text == nullptr) return values;
     constexpr std::size_t kSample = 256;
+    if (threads_ > 1 && read_in_parts(*text, threads_, values)) return values;
     std::string_view rest = *text;
     for (skip_separators(rest); !rest.empty(); skip_separators(rest)) {
         T value{};

@@ -45,9 +45,12 @@ NumberVerdict read_number(std::string_view word, double& value);
 /// separated by blanks, line breaks or commas.
 class Fields {
   public:
-    Fields(const Element& element, Messages& messages) : element_(element), messages_(messages) {}
+    /// Up to `threads` share the work on long lists of numbers.
+    Fields(const Element& element, Messages& messages, int threads = 1)
+        : element_(element), messages_(messages), threads_(threads) {}
 
     const Element& element() const { return element_; }
+    int threads() const { return threads_; }
     bool is_strict() const { return messages_.is_strict(); }
     bool boolean(std::string_view name, bool fallback) const;
     double number(std::string_view name, double fallback) const;
@@ -112,6 +115,7 @@ class Fields {
 
     const Element& element_;
     Messages& messages_;
+    int threads_;
 };
 
 }  // namespace nuvo::x3d

@@ -59,20 +59,20 @@ void find_properties(const Element& geometry, MeshSource& source) {
 bool is_mesh(std::string_view name) { return find_kind(name) != nullptr; }
 
 std::optional<TriangleMesh> read_mesh(const Element& geometry, const Placement& placement,
-                                      const Defaults& defaults, Messages& messages,
+                                      const ReadOptions& options, Messages& messages,
                                       VertexBudget& budget) {
     const MeshKind& kind = *find_kind(geometry.name);
-    const Fields fields(geometry, messages);
+    const Fields fields(geometry, messages, options.threads);
     MeshSource source{fields, messages, budget, nullptr, nullptr, nullptr, true, {}};
     find_properties(geometry, source);
-    source.smooths_unasked = defaults.smooths_unasked;
+    source.smooths_unasked = options.defaults.smooths_unasked;
     source.ccw = !kind.has_winding || fields.boolean("ccw", true);
     if (kind.has_coordinates) {
         if (source.coordinate == nullptr) {
             messages.warn(geometry.name, "without a Coordinate not drawn", geometry);
             return std::nullopt;
         }
-        const Fields coordinate(*source.coordinate, messages);
+        const Fields coordinate(*source.coordinate, messages, options.threads);
         source.polygons.points = coordinate.vectors("point");
         budget.take(source.polygons.points.size(), coordinate);
     }

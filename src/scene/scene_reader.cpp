@@ -232,8 +232,7 @@ const Element* SceneReader::appearance_inside(const Element& geometry) {
 
 std::optional<Shape> SceneReader::read_geometry(const Element& node, const Placement& placement) {
     if (node.name == "Sphere") return read_sphere(node, placement);
-    if (is_mesh(node.name))
-        return read_mesh(node, placement, options_.defaults, messages_, vertices_);
+    if (is_mesh(node.name)) return read_mesh(node, placement, options_, messages_, vertices_);
     warn_not_drawn(node, messages_);
     return std::nullopt;
 }

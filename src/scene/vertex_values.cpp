@@ -139,7 +139,7 @@ std::uint32_t checked(std::int64_t index, std::size_t count, const Fields& field
 
 void read_normals(MeshSource& source, const Spread& spread) {
     if (source.normal == nullptr) return;
-    const Fields fields(*source.normal, source.messages);
+    const Fields fields(*source.normal, source.messages, source.fields.threads());
     CornerValues& normals = source.polygons.normals;
     normals.values = fields.vectors("vector");
     source.budget.take(normals.values.size() + spread.index.size(), fields);
@@ -148,7 +148,7 @@ void read_normals(MeshSource& source, const Spread& spread) {
 
 void read_colors(MeshSource& source, const Spread& spread) {
     if (source.color == nullptr) return;
-    const Fields fields(*source.color, source.messages);
+    const Fields fields(*source.color, source.messages, source.fields.threads());
     CornerValues& colors = source.polygons.colors;
     colors.values = source.color->name == "ColorRGBA" ? read_rgba(fields) : fields.colors("color");
     source.budget.take(colors.values.size() + spread.index.size(), fields);

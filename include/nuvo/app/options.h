@@ -87,6 +87,8 @@ struct Options {
     bool shows_progress() const { return !quiet && !standard_output_taken(); }
     /// The resolution at which pictures are traced before samples are averaged.
     Resolution traced_resolution() const;
+    /// `threads`, or how many cores there are.
+    int thread_count() const;
 };
 
 /// A command line that cannot be obeyed: what() is one line that names flag and value.

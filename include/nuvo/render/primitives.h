@@ -61,7 +61,8 @@ struct Primitives {
     PrimitiveRange all() const { return {0, static_cast<PrimitiveId>(sources.size())}; }
 };
 
-/// Flattens `scene` with single primitives or whole shapes as leaf items.
-Primitives flatten(const Scene& scene, LeafContent leaves);
+/// Flattens `scene` with single primitives or whole shapes as leaf items. Up to `threads` share the
+/// work on large meshes.
+Primitives flatten(const Scene& scene, LeafContent leaves, int threads = 1);
 
 }  // namespace nuvo

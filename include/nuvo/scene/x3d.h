@@ -54,6 +54,7 @@ struct ReadOptions {
     /// Takes for each Shape of the document, in its order, its DEF, or where it has none that of
     /// the nearest node around it that has one; empty: none has.
     std::vector<std::string>* shape_names = nullptr;
+    int threads = 1;  ///< that read the numbers of large meshes; at least 1
 };
 
 /// Reads an X3D file (XML encoding, perhaps packed by gzip; root X3D or a bare Scene) into world
