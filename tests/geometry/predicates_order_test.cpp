@@ -111,6 +111,25 @@ TEST(HitOrderByHand, EqualRootsOfDifferentPrimitives) {
               -1);
 }
 
+// All corners of one on one side of the other, by less than 64 bits of t can tell.
+TEST(HitOrderByHand, ParallelPlanesThatDifferBelowLongDouble) {
+    const ExactRay ray(Ray{{0, 0, -1}, {0, 0, 1}});
+    constexpr double kNear = 0x1p-50;
+    constexpr double kFar = kNear + 0x1p-102;
+    const Triangle near{{-1, -1, kNear}, {1, -1, kNear}, {0, 1, kNear}};
+    const Triangle far{{-1, -1, kFar}, {1, -1, kFar}, {0, 1, kFar}};
+    const Triangle turned{near.a, near.c, near.b};
+    const Triangle far_turned{far.a, far.c, far.b};
+    StageCounts counts;
+    for (const Triangle* first : {&near, &turned})
+        for (const Triangle* second : {&far, &far_turned}) {
+            EXPECT_EQ(compare_roots(ray, {first}, {second}, counts), -1);
+            EXPECT_EQ(compare_roots(ray, {second}, {first}, counts), 1);
+        }
+    EXPECT_EQ(compare_roots(ray, {&near}, {&turned}, counts), 0);
+    EXPECT_EQ(counts.exact, 8U) << "two in one plane need no exact root";
+}
+
 TEST(HitOrderByHand, SurdsThatDifferInTheLastDigits) {
     // Near roots 10 - sqrt(2 + e) of balls whose squares differ by one roundoff of a tiny offset.
     const ExactRay ray(Ray{{0, 0, 0}, {1, 0, 0}});
