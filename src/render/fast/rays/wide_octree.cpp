@@ -147,26 +147,56 @@ class WideBuilder {
         voxel.forest.fill(leaf_cost(voxel));
     }
 
-    // Primitives about as wide as the scene, if they are few, get a leaf beside the root's voxels:
-    // one test that most rays need, instead of one at each leaf on their ways.
+    // Primitives about as wide as the scene, if they are few, get leaves beside the root's voxels:
+    // tests that most rays need, once instead of at each leaf on their ways.
     void set_large_apart(std::vector<Inner>& lanes) {
         constexpr std::size_t kFew = 2 * kLeafLanes;
         const float wide = max_norm(octree_.bounds.widths()) / 2;
-        Voxel large;
-        for (Slot slot = 0; slot < scene_.sphere_end() && large.count <= kFew; ++slot) {
-            const Bounds3T<float> box = whole_box(scene_, slot);
-            if (max_norm(box.widths()) < wide) continue;
-            ++large.count;
-            large.box = large.box.extended(box);
-            items_.push_back(slot);
-        }
-        if (large.count > kFew) items_.clear();
-        if (items_.empty()) return;
-        for (const Slot slot : items_)
+        std::vector<Slot> large;
+        for (Slot slot = 0; slot < scene_.sphere_end() && large.size() <= kFew; ++slot)
+            if (max_norm(whole_box(scene_, slot).widths()) >= wide) large.push_back(slot);
+        if (large.size() > kFew) return;
+        for (const Slot slot : large)
             homes_[slot] = {~std::uint32_t{0}, -std::numeric_limits<float>::infinity(), true};
-        large.leaf = true;
-        lanes.push_back({static_cast<std::uint32_t>(voxels_.size()), 0, 0});
-        voxels_.push_back(large);
+        for (const LargeGroup& group : groups_of(large)) {
+            std::uint64_t way = lanes.size();  // they differ in that
+            for (int axis = 0; axis < 3; ++axis)
+                if (group.box.center()[axis] > octree_.bounds.center()[axis])
+                    way |= std::uint64_t{1} << (kFirstShift + axis);
+            lanes.push_back({static_cast<std::uint32_t>(voxels_.size()), way, 0});
+            Voxel voxel;
+            voxel.box = group.box;
+            voxel.first = static_cast<std::uint32_t>(items_.size());
+            voxel.count = static_cast<std::uint32_t>(group.slots.size());
+            voxel.leaf = true;
+            voxels_.push_back(voxel);
+            items_.insert(items_.end(), group.slots.begin(), group.slots.end());
+        }
+    }
+    struct LargeGroup {
+        Bounds3T<float> box;
+        std::vector<Slot> slots;
+    };
+    // One leaf for those in one box, as are two halves of a wall, or in boxes that rays can hardly
+    // tell apart.
+    std::vector<LargeGroup> groups_of(std::span<const Slot> large) const {
+        constexpr std::size_t kMostGroups = kWideLanes - 8;
+        constexpr float kSame = 1 + 0x1p-18F;
+        std::vector<LargeGroup> groups;
+        for (const Slot slot : large) {
+            const Bounds3T<float> box = whole_box(scene_, slot);
+            auto group = std::find_if(groups.begin(), groups.end(), [&](const LargeGroup& g) {
+                return half_area(g.box.extended(box)) <=
+                       kSame * std::max(half_area(g.box), half_area(box));
+            });
+            if (group == groups.end() && groups.size() < kMostGroups)
+                group = groups.emplace(group);
+            else if (group == groups.end())
+                --group;
+            group->box = group->box.extended(box);
+            group->slots.push_back(slot);
+        }
+        return groups;
     }
 
     // Which leaf, by its first item's place, is nearest to an item's middle; and whether it is
