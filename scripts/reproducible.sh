@@ -12,8 +12,10 @@ nuvo_install "${nuvo_packages[@]}"
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 export CCACHE_DISABLE=1
+commit=$(git -C "$nuvo_root" rev-parse HEAD)
 for folder in one "a longer name of a folder"; do
     git clone -q "$nuvo_root" "$scratch/$folder/nuvo"
+    git -C "$scratch/$folder/nuvo" checkout -q --detach "$commit"  # there may be another by now
     (
         cd "$scratch/$folder/nuvo"
         nuvo_quietly cmake --preset release "$@"
