@@ -9,20 +9,18 @@ namespace {
 constexpr std::size_t kFirstEntries = 1024;
 constexpr std::size_t kMostEntries = 1 << 16;  // 12 MB
 
-// v by the power of two that brings its largest component to [1/2, 1): each component within two
-// roundoffs, and what underflows.
-Vector3 scaled_to_one(const ExactVector& v) {
-    const WideDouble wide[3] = {v.x.approximate(), v.y.approximate(), v.z.approximate()};
+// The power of two that brings v's largest component to [1/2, 1); 0 for a zero.
+std::int64_t exponent_of(const Vec3<WideDouble>& v) {
     std::int64_t largest = std::numeric_limits<std::int64_t>::min();
-    for (const WideDouble& c : wide)
+    for (const WideDouble& c : {v.x, v.y, v.z})
         if (c.significand() != 0) largest = std::max(largest, c.exponent());
-    Vector3 scaled;
-    for (int axis = 0; axis < 3; ++axis) {
-        const WideDouble& c = wide[axis];
-        if (c.significand() != 0)
-            scaled[axis] = WideDouble(c.significand(), c.exponent() - largest).rounded();
-    }
-    return scaled;
+    return largest == std::numeric_limits<std::int64_t>::min() ? 0 : largest;
+}
+
+// x / 2^exponent, rounded.
+double scaled(const WideDouble& x, std::int64_t exponent) {
+    return x.significand() == 0 ? 0
+                                : WideDouble(x.significand(), x.exponent() - exponent).rounded();
 }
 
 EdgePlanes planes_of(const Triangle& t, const Vector3& p, bool far) {
@@ -32,8 +30,13 @@ EdgePlanes planes_of(const Triangle& t, const Vector3& p, bool far) {
     for (int i = 0; i < 3; ++i) {
         const ExactVector& from = corner[(i + 2) % 3];
         const ExactVector& to = corner[(i + 1) % 3];
-        planes.normal[i] =
-            scaled_to_one(far ? cross(to - from, shared) : cross(from - shared, to - shared));
+        const ExactVector normal =
+            far ? cross(to - from, shared) : cross(from - shared, to - shared);
+        const Vec3<WideDouble> wide{normal.x.approximate(), normal.y.approximate(),
+                                    normal.z.approximate()};
+        const std::int64_t exponent = exponent_of(wide);
+        for (int axis = 0; axis < 3; ++axis) planes.normal[i][axis] = scaled(wide[axis], exponent);
+        if (far) planes.offset[i] = scaled(dot(normal, to).approximate(), exponent);
     }
     return planes;
 }
@@ -52,10 +55,10 @@ const EdgePlanes* EdgeMemo::through(const Triangle& triangle, const Point3& p) {
     return find(triangle, p, false);
 }
 
-const EdgePlanes* EdgeMemo::known_through(const Triangle& t, const Point3& p) const {
+const EdgePlanes* EdgeMemo::known(const Triangle& t, const Vector3& p, bool far) const {
     if (entries_.empty()) return nullptr;
-    const Entry& entry = entries_[detail::memo_hash(t, p, false) % entries_.size()];
-    return entry.found && entry.is_for(t, p, false) ? &entry.planes : nullptr;
+    const Entry& entry = entries_[detail::memo_hash(t, p, far) % entries_.size()];
+    return entry.found && entry.is_for(t, p, far) ? &entry.planes : nullptr;
 }
 
 const EdgePlanes* EdgeMemo::along(const Triangle& triangle, const Vector3& d) {

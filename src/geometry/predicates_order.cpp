@@ -1,5 +1,6 @@
 #include "plane_root.h"
 #include "predicates_exact.h"
+#include "predicates_quadratic.h"
 
 namespace nuvo {
 namespace {
@@ -124,6 +125,7 @@ int compare_roots(const ExactRay& ray, const HitPrimitive& a, const HitPrimitive
     if (first && second)
         if (const std::optional<int> order = quick_order(ray, **first, **second, counts))
             return *order;
+    if (const std::optional<int> order = detail::sure_order(ray, a, b)) return *order;
     ++counts.exact;
     return std::visit([](const auto& x, const auto& y) { return order(x, y); }, exact_root(ray, a),
                       exact_root(ray, b));

@@ -43,4 +43,31 @@ struct RoundedOffset {
 };
 RoundedOffset rounded_offset(const RoundedQuadratic& q, SphereRoot which);
 
+struct BoundedMatrix {
+    Matrix3 value;
+    Matrix3 magnitude;  ///< gamma(4) times this bounds the error
+};
+
+inline BoundedMatrix bounded_adjugate(const Matrix3& m) {
+    const Matrix3 magnitudes{{cross_magnitude(m.row[1], m.row[2]),
+                              cross_magnitude(m.row[2], m.row[0]),
+                              cross_magnitude(m.row[0], m.row[1])}};
+    return {m.adjugate(), magnitudes.transposed()};
+}
+
+/// A vector with a bound of its error in 2-norm.
+struct BoundedVector {
+    Vector3 value;
+    double error;
+};
+
+/// m * v for v known within a roundoff: 2 (m) + 1 (v) + 3 (dot product) roundings, and underflow.
+inline BoundedVector product(const BoundedMatrix& m, const Vector3& v) {
+    return {m.value * v,
+            gamma(8) * sum(m.magnitude * magnitude(v)) + 64 * kUnderflow * (sum(magnitude(v)) + 1)};
+}
+
+/// The sign of t_a - t_b for two hits on quadrics, where doubles are sure of it.
+std::optional<int> sure_order(const ExactRay& ray, const HitPrimitive& a, const HitPrimitive& b);
+
 }  // namespace nuvo::detail

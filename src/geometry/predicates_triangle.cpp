@@ -121,14 +121,28 @@ std::optional<int> sure_sign(const Vector3& n, const Vector3& v) {
     return product.sign();
 }
 
+/// The sign of n.(q - p), of n as above and n.q known within two roundoffs, where p is small beside
+/// q. [numerics: edge planes]
+std::optional<int> sure_sign(const Vector3& n, double nq, const Point3& p) {
+    const Vector3 size = magnitude(p);
+    const Bounded<double> difference{
+        nq - dot(n, p),
+        gamma(6) * (std::fabs(nq) + dot(magnitude(n), size)) + 8 * kUnderflow * (sum(size) + 1)};
+    if (!difference.sure()) return std::nullopt;
+    return difference.sign();
+}
+
 /// Finds the unknown signs by planes through the edges and a point of the ray, or along the ray.
 void add_signs_of_planes(const EdgePlanes& planes, bool along, const ExactRay& ray,
                          const Triangle& t, EdgeSigns& signs) {
     const Point3 corner[3] = {t.a, t.b, t.c};
     for (int i = 0; i < 3; ++i) {
         if (signs.known[i]) continue;
+        const Vector3& n = planes.normal[i];
         const Vector3 v = along ? corner[(i + 1) % 3] - ray.origin() : ray.direction();
-        if (const std::optional<int> sign = sure_sign(planes.normal[i], v)) signs.set(i, *sign);
+        std::optional<int> sign = sure_sign(n, v);
+        if (!sign && along) sign = sure_sign(n, planes.offset[i], ray.origin());
+        if (sign) signs.set(i, *sign);
     }
 }
 
@@ -160,19 +174,22 @@ bool ends_in_plane(const ExactRay& way, double end, const Triangle& t, StageCoun
                                                      const Triangle& t, EdgeSigns signs,
                                                      StageCounts& counts) {
     const Point3 shared = shared_point(ray, end);
+    const bool untailed = ray.tail() == Vector3{0, 0, 0};
     if (const EdgePlanes* known = counts.edges.known_through(t, shared))
         add_signs_of_planes(*known, false, ray, t, signs);
+    else if (untailed && (known = counts.edges.known_along(t, ray.direction())))
+        add_signs_of_planes(*known, true, ray, t, signs);
     if (signs.decided()) return signs.answer();
     add_signs<long double>(ray, t, signs);
+    if (signs.decided()) return signs.answer();
+    const EdgePlanes* planes = counts.edges.through(t, shared);
+    const bool along = !planes && untailed;
+    if (along) planes = counts.edges.along(t, ray.direction());
+    if (planes) add_signs_of_planes(*planes, along, ray, t, signs);
     if (signs.decided()) return signs.answer();
     // What lies in a plane with the origin is not met beyond it, what with the end not before it.
     if (counts.sides.side(t, ray.origin(), counts.exact) == 0 || ends_in_plane(ray, end, t, counts))
         return LineTest::kMisses;
-    const EdgePlanes* planes = counts.edges.through(t, shared);
-    const bool along = !planes && ray.tail() == Vector3{0, 0, 0};
-    if (along) planes = counts.edges.along(t, ray.direction());
-    if (planes) add_signs_of_planes(*planes, along, ray, t, signs);
-    if (signs.decided()) return signs.answer();
     ++counts.exact;
     add_exact_signs(ray, t, signs);
     return signs.answer();

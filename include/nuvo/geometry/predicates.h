@@ -41,9 +41,11 @@ class SideMemo {
 };
 
 /// For each edge of a triangle the normal of a plane through it, times a power of two: exact within
-/// two roundoffs of each component.
+/// two roundoffs of each component; and for planes along a direction its product with the edge's
+/// points, as exact and times the same power.
 struct EdgePlanes {
     Vector3 normal[3];
+    double offset[3] = {};
 };
 
 /// The planes through the edges and the point p, by exact arithmetic: for corners P, Q of an edge
@@ -59,8 +61,13 @@ class EdgeMemo {
     const EdgePlanes* through(const Triangle& triangle, const Point3& p);
     /// The planes through the edges along the ray's direction d: (Q - P) x d.
     const EdgePlanes* along(const Triangle& triangle, const Vector3& d);
-    /// The planes through p where they are known; does not count as asked for.
-    const EdgePlanes* known_through(const Triangle& triangle, const Point3& p) const;
+    /// The same where they are known; does not count as asked for.
+    const EdgePlanes* known_through(const Triangle& triangle, const Point3& p) const {
+        return known(triangle, p, false);
+    }
+    const EdgePlanes* known_along(const Triangle& triangle, const Vector3& d) const {
+        return known(triangle, d, true);
+    }
 
   private:
     struct Entry {
@@ -74,6 +81,7 @@ class EdgeMemo {
         bool is_for(const Triangle& t, const Vector3& q, bool is_far) const;
     };
     const EdgePlanes* find(const Triangle& triangle, const Vector3& p, bool far);
+    const EdgePlanes* known(const Triangle& triangle, const Vector3& p, bool far) const;
 
     std::vector<Entry> entries_;  // by a hash, the last one asked for; none before the first
     std::size_t lost_ = 0;        // planes that gave way to others

@@ -147,7 +147,10 @@ class Frame::Worker {
         macro.y = place.row * kMacroSide;
         if (tables_.is_serial) return;
         StageClock clock(clocked_);
+        found_ += kMacroSide * kMacroSide;
+        if (options_.redo_exactly) fallback_.allow(serial_cost(found_, scene_));
         primary_.trace(job_, macro, quadrics);
+        give_up_if_exhausted();
         clock.add_to(spent_.primary);
     }
     /// Calls use(wanted depths of a light, tile, wanted lanes) for the tiles of a macro tile.
@@ -192,9 +195,6 @@ class Frame::Worker {
         for_each_tile(macro, quadrics, [&] { shade_tile(image, clock); });
     }
     void shade_tile(Image& image, StageClock& clock) {
-        shaded_ += kTileLanes;
-        if (options_.redo_exactly && is_serial_cheaper(fallback_.tests(), shaded_, scene_))
-            tables_.is_serial = true;
         if (tables_.is_serial) return trace_serially(image);
         if (hit_anything()) {
             shading_.surface(tile_);
@@ -208,10 +208,15 @@ class Frame::Worker {
                 shading_.add(light, lit);
             }
         }
+        give_up_if_exhausted();
+        if (tables_.is_serial) return trace_serially(image);
         shading_.finish(tile_, fallback_, image);
         clock.add_to(spent_.shading);
     }
 
+    void give_up_if_exhausted() {
+        if (fallback_.is_exhausted()) tables_.is_serial = true;
+    }
     void trace_serially(Image& image) {
         if (!pixels_) pixels_.emplace(serial_);
         const Resolution size = tables_.rays.resolution;
@@ -230,7 +235,7 @@ class Frame::Worker {
     Tables& tables_;
     const FastOptions& options_;
     bool clocked_;
-    std::uint64_t shaded_ = 0;            // pixels
+    std::uint64_t found_ = 0;             // pixels
     std::optional<SerialPixels> pixels_;  // once the serial tracer has taken over
     FastTimes spent_;
     ExactFallback fallback_;

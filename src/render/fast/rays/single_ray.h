@@ -50,7 +50,7 @@ class SingleRays {
     float bounds_scale() const { return bounds_scale_; }
     /// After `rays` of this call.
     bool gives_up(std::size_t rays) const {
-        return bounds_scale_ != 0 && is_serial_cheaper(tests_, rays_ + rays, scene_);
+        return bounds_scale_ != 0 && tests_ > serial_cost(rays_ + rays, scene_);
     }
     /// The nearest of the candidates by exact arithmetic, if any is met.
     std::optional<RayCandidate> decide(const Ray& ray, const LocalRay& local,

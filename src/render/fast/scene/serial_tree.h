@@ -32,6 +32,10 @@ class SerialTree {
         return octree_;
     }
     bool is_built() const { return is_built_; }
+    std::vector<RayAnswer> closest_hits(std::span<const Ray> rays, Progress* progress) {
+        return nuvo::closest_hits(scene_.scene(), scene_.primitives(), &octree(), profile_, rays,
+                                  progress);
+    }
 
   private:
     const FastScene& scene_;
@@ -41,12 +45,12 @@ class SerialTree {
     Octree octree_;
 };
 
-/// Whether exact answers for so many rays have taken more tests than the octree and the rays of the
-/// serial tracer would, about.
-inline bool is_serial_cheaper(std::uint64_t tests, std::uint64_t rays, const FastScene& scene) {
+/// What the octree and so many rays of the serial tracer cost, about, in exact tests of a
+/// primitive.
+inline std::uint64_t serial_cost(std::uint64_t rays, const FastScene& scene) {
     constexpr std::uint64_t kTestsARay = 4;
     constexpr std::uint64_t kTestsAnItem = 64;
-    return tests > kTestsARay * rays + kTestsAnItem * scene.slot_end();
+    return kTestsARay * rays + kTestsAnItem * scene.slot_end();
 }
 
 }  // namespace nuvo

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <unordered_map>
@@ -46,8 +47,7 @@ class ExactFallback {
     /// which a box tells at less cost.
     bool blocks(const Kernel::Shadow& ray, Slot occluder) const {
         const PrimitiveId id = scene_.id(occluder);
-        ++tests_;
-        return comes_near(ray, occluder) && kernel_.blocks(ray, {id, id + 1});
+        return comes_near(ray, occluder) && (!may_test() || kernel_.blocks(ray, {id, id + 1}));
     }
     /// Whether `occluder` may do so, by its box.
     bool comes_near(const Kernel::Shadow& ray, Slot occluder) const {
@@ -57,8 +57,10 @@ class ExactFallback {
     /// what some rays have found is kept. [crowd.h]
     bool blocks_any(const Kernel::Shadow& ray, std::span<const Slot> leaf) const;
 
-    /// Of a primitive by a ray, so far.
-    std::uint64_t tests() const { return tests_; }
+    /// How many tests of a primitive may be asked for in all; not called: any number.
+    void allow(std::uint64_t tests) { allowed_ = tests; }
+    /// More were asked for, then or once before: the last answers may have been wrong.
+    bool is_exhausted() const { return is_exhausted_; }
 
     /// The pixel's color, given what it shows (kNoSlot: the background) and which lights are not
     /// blocked (bit i of the predicate; lights that do not cast shadows are asked for, too).
@@ -95,7 +97,14 @@ class ExactFallback {
     const FastScene& scene_;
     const CameraRays& camera_;
     Kernel kernel_;
+    bool may_test() const {
+        if (++tests_ > allowed_) is_exhausted_ = true;
+        return !is_exhausted_;
+    }
+
+    std::uint64_t allowed_ = std::numeric_limits<std::uint64_t>::max();
     mutable std::uint64_t tests_ = 0;
+    mutable bool is_exhausted_ = false;
     mutable std::unordered_map<const Slot*, LargeLeaf> large_leaves_;  // by their first items
 };
 
