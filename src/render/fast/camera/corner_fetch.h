@@ -84,8 +84,8 @@ class CornerFetch {
             for (auto& column : corners_[i / TriangleBatch::kSize].corner)
                 column[i % TriangleBatch::kSize] = column[0];
         for (std::size_t half = 0; half < corners_.size(); ++half)
-            corners_[half].front_only =
-                batch.front_only >> half * TriangleBatch::kSize & (1U << TriangleBatch::kSize) - 1;
+            corners_[half].front_only = batch.front_only >> half * TriangleBatch::kSize &
+                                        ((1U << TriangleBatch::kSize) - 1);
     }
 
     const FastScene& scene_;

@@ -66,8 +66,7 @@ std::vector<RayAnswer> SingleRays::closest_hits(std::span<const Ray> rays, Progr
         rays_ += answered;
         add(progress, answered);
         if (answered == some.size()) continue;
-        const auto rest = nuvo::closest_hits(scene_.scene(), scene_.primitives(), &serial->octree(),
-                                             serial->profile(), rays.subspan(first), progress);
+        const auto rest = serial->closest_hits(rays.subspan(first), progress);
         std::copy(rest.begin(), rest.end(), answers.begin() + static_cast<std::ptrdiff_t>(first));
         break;
     }
