@@ -73,5 +73,29 @@ TEST(SerialTree, ServesRaysThatFloatsTellNothingOf) {
     }
 }
 
+// Floats would let rays into boxes without end, or past what is there.
+TEST(SerialTree, ServesScenesThatReachBeyondTheDoubles) {
+    Scene scene;
+    scene.materials.resize(1);
+    Ellipsoid thin{{0, 0, 0}, {}, 1e9};
+    thin.linear.row[2].z = 1e300;
+    scene.objects.push_back({Sphere{{0, 0, 0}, 1}, 0, 0, false});
+    scene.objects.push_back({thin, 0, 1, false});
+    scene.shape_count = 2;
+    const Primitives primitives = flatten(scene, LeafContent::kPrimitives);
+    const std::vector<Ray> rays = {
+        {{0, 0, 0}, {0, 0, 1}}, {{3e9, 0, 0}, {-1, 0, 0}}, {{-8, -0.25, 0}, {1, 0.01, 0}}};
+    const auto expected = closest_hits(scene, primitives, nullptr, exact_profile(), rays);
+    FastTracer tracer(scene, primitives, {});
+    const auto found = tracer.closest_hits(rays);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        EXPECT_EQ(found[i].hit, expected[i].hit);
+        EXPECT_EQ(found[i].shape, expected[i].shape);
+        EXPECT_EQ(found[i].t, expected[i].t);
+    }
+    EXPECT_TRUE(expected[0].hit && expected[1].hit && expected[2].hit);
+    EXPECT_EQ(difference(exact_picture(scene, primitives, {32, 18}), tracer.render({32, 18})), "");
+}
+
 }  // namespace
 }  // namespace nuvo::testing

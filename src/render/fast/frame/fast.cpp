@@ -41,7 +41,7 @@ FastTracer& FastTracer::operator=(FastTracer&&) noexcept = default;
 
 Image FastTracer::render(Resolution resolution, FastTimes* times) {
     const FastScene& fast = state_->fast;
-    if (!Frame::can_show(fast.frame(), fast.scene().camera)) {
+    if (!Frame::can_show(fast)) {
         SerialTree& serial = state_->serial;
         Progress* const progress = state_->options.progress;
         return nuvo::render(fast.scene(), fast.primitives(), serial.octree(progress),
@@ -54,6 +54,8 @@ Image FastTracer::render(Resolution resolution, FastTimes* times) {
 }
 
 std::vector<RayAnswer> FastTracer::closest_hits(std::span<const Ray> rays) const {
+    if (!state_->fast.is_finite())
+        return state_->serial.closest_hits(rays, state_->options.progress);
     std::unique_ptr<SingleRays>& single = state_->single;
     if (!single)
         single = std::make_unique<SingleRays>(state_->fast, state_->options.isa,
@@ -63,7 +65,7 @@ std::vector<RayAnswer> FastTracer::closest_hits(std::span<const Ray> rays) const
 
 RayCounts FastTracer::count_rays(Resolution resolution) const {
     const FastScene& fast = state_->fast;
-    if (Frame::can_show(fast.frame(), fast.scene().camera))
+    if (Frame::can_show(fast))
         return nuvo::count_rays(fast, state_->options.isa, resolution, state_->options.progress);
     SerialTree& serial = state_->serial;
     const TraceCounts counts = count_events(fast.scene(), fast.primitives(), serial.octree(),

@@ -265,8 +265,10 @@ Frame::Frame(SerialTree& serial, const FastOptions& options, Resolution resoluti
 Frame::~Frame() = default;
 
 // Tables are for rays from one point.
-bool Frame::can_show(const LocalFrame& frame, const Camera& camera) {
-    return !camera.window && max_norm(frame.local(camera.position)) < kFarthestCamera;
+bool Frame::can_show(const FastScene& scene) {
+    const Camera& camera = scene.scene().camera;
+    return scene.is_finite() && !camera.window &&
+           max_norm(scene.frame().local(camera.position)) < kFarthestCamera;
 }
 
 std::size_t Frame::memory_bytes() const {

@@ -18,8 +18,8 @@ enum class ShadowListing : std::uint8_t { kMeasured, kAll, kWanted };
 /// All that one picture needs, and the loop over its tiles.
 class Frame {
   public:
-    /// Whether floats tell enough of a scene that this camera sees.
-    static bool can_show(const LocalFrame& frame, const Camera& camera);
+    /// Whether floats tell enough of the scene as its camera sees it.
+    static bool can_show(const FastScene& scene);
 
     /// Adds to `times` if it is given. Keeps references.
     Frame(SerialTree& serial, const FastOptions& options, Resolution resolution, FastTimes* times,

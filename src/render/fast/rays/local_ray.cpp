@@ -93,7 +93,7 @@ LocalRay::LocalRay(const Ray& ray, const LocalFrame& frame, float reach) {
     // So all numbers of the slabs, at most 2^60 times these, stay finite as floats: an infinite one
     // would let the ray into the boxes of unused lanes.
     constexpr double kFarthest = 0x1p60;
-    valid = max_norm(o) < kFarthest && error < kFarthest && reach < kFarthest;
+    valid = max_norm(o) < kFarthest && error < kFarthest;
     if (!valid) return;
     // After an advance nothing is met before s = 1/2: the box is 1 away on an axis, and |d| < 2.
     behind = advance > 0 ? -0.25F : 0.0F;

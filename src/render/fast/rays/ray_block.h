@@ -7,7 +7,6 @@
 #endif
 
 #include <algorithm>
-#include <cmath>
 #include <span>
 
 #include "fast/rays/local_ray.h"
@@ -23,8 +22,7 @@ class RayBlock {
   public:
     /// The first 16 of the rays, or all.
     HWY_NOINLINE void prepare(std::span<const Ray> rays, const LocalFrame& frame, float reach) {
-        // Boxes of primitives that end beyond the doubles are infinite.
-        if (std::isfinite(reach) && prepare_near(rays, frame, reach)) return;
+        if (prepare_near(rays, frame, reach)) return;
         valid = 0;
         for (std::size_t i = 0; i < RayLanes::kRays; ++i)
             put(LocalRay(rays[std::min(i, rays.size() - 1)], frame, reach), i);

@@ -28,8 +28,8 @@ class SingleRays {
     using Kernel = ExactKernelOf<SceneStore>;
 
   public:
-    /// Keeps a reference to the scene; makes copies of its own in a layout for rays.
-    /// `redo_exactly`: see FastOptions.
+    /// Keeps a reference to the scene, which is_finite(); makes copies of its own in a layout for
+    /// rays. `redo_exactly`: see FastOptions.
     SingleRays(const FastScene& scene, InstructionSet isa, bool redo_exactly);
 
     /// What closest_hits() of the exact profile answers. Where floats leave most to exact tests the

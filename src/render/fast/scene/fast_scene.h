@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -48,6 +49,8 @@ class FastScene {
     const Bounds3& triangle_box() const { return primitives_.kind(PrimitiveKind::kTriangle).box; }
     /// Of all boxes of primitives; world space.
     double largest_coordinate() const { return largest_coordinate_; }
+    /// No primitive's box ends beyond the doubles, where only exact arithmetic knows it.
+    bool is_finite() const { return std::isfinite(largest_coordinate_); }
     const CompactOctree& octree() const { return octree_; }
     /// Bounds |coordinate| in the octree's box, in the local frame; 1 for an empty scene.
     double reach() const { return reach_; }
