@@ -15,14 +15,17 @@ constexpr Resolution kSize{160, 90};
 
 struct Subject {
     explicit Subject(const std::string& file)
-        : scene(x3d::read_file(std::filesystem::path(NUVO_SOURCE_DIR) / file)),
+        : Subject(x3d::read_file(std::filesystem::path(NUVO_SOURCE_DIR) / file)) {}
+    explicit Subject(Scene given)
+        : scene(std::move(given)),
           primitives(flatten(scene, LeafContent::kPrimitives)),
           fast(scene, primitives, OctreeType::kUniform, 1),
           serial(fast) {}
 
-    Image picture() {
+    Image picture(int threads = 1, ShadowListing listing = ShadowListing::kAll) {
         KeptShadows kept;
-        return Frame(serial, {OctreeType::kUniform, 1}, kSize, nullptr, kept).render();
+        const FastOptions options{OctreeType::kUniform, threads};
+        return Frame(serial, options, kSize, nullptr, kept, listing).render();
     }
     std::vector<RayAnswer> hits(std::span<const Ray> rays) {
         return SingleRays(fast, InstructionSet::kBest, true).closest_hits(rays, nullptr, &serial);
@@ -54,7 +57,25 @@ TEST(SerialTree, IsNotBuiltForOrdinaryScenes) {
 TEST(SerialTree, ServesPixelsThatFloatsTellNothingOf) {
     Subject subject("tests/fuzz/findings/small-shapes-beside-1e200.x3d");
     const Image expected = exact_picture(subject.scene, subject.primitives, kSize);
-    EXPECT_EQ(difference(expected, subject.picture()), "");
+    for (const int threads : {1, 3})
+        for (const ShadowListing listing : {ShadowListing::kAll, ShadowListing::kWanted})
+            EXPECT_EQ(difference(expected, subject.picture(threads, listing)), "");
+    EXPECT_TRUE(subject.serial.is_built());
+}
+
+// All spheres coincide but for their last bits: primary rays alone are too much for the fallback.
+TEST(SerialTree, ServesPixelsBeforeAnyIsShaded) {
+    std::string shapes;
+    for (int i = 0; i < 400; ++i)
+        shapes +=
+            "<Transform translation='" + std::to_string(i) +
+            "e-18 0 0'><Shape><Appearance><Material/></Appearance><Sphere/></Shape></Transform>";
+    Subject subject(x3d::read_text(
+        "<X3D version='3.3'><Scene><Viewpoint position='0 0 4'/>" + shapes + "</Scene></X3D>",
+        "scene"));
+    const Image expected = exact_picture(subject.scene, subject.primitives, kSize);
+    for (const ShadowListing listing : {ShadowListing::kAll, ShadowListing::kWanted})
+        EXPECT_EQ(difference(expected, subject.picture(3, listing)), "");
     EXPECT_TRUE(subject.serial.is_built());
 }
 

@@ -141,7 +141,7 @@ class Frame::Worker {
           primary_(options.isa),
           shading_(*tables.shading) {}
 
-    /// Finds what a macro tile shows.
+    /// Finds what a macro tile shows, unless the serial tracer has taken over.
     void find(TilePlace place, MacroTile& macro, MacroQuadrics* quadrics) {
         macro.x = place.column * kMacroSide;
         macro.y = place.row * kMacroSide;
@@ -168,13 +168,17 @@ class Frame::Worker {
         });
     }
     void shade(std::size_t i, Image& image) {
+        const TilePlace place = tables_.tiles[i];
+        if (tables_.is_serial)
+            return trace_serially(place.column * kMacroSide, place.row * kMacroSide, kMacroSide,
+                                  image);
         if (!shadow_) shadow_.emplace(*tables_.shadow, options_.isa, options_.redo_exactly);
         if (tables_.two_passes) {
             shade(tables_.hits.tiles[i], tables_.hits.quadrics_of(i), image);
             return;
         }
         const bool quadrics = scene_.slot_end() != scene_.triangle_end();
-        find(tables_.tiles[i], macro_, &quadrics_);
+        find(place, macro_, &quadrics_);
         shade(macro_, quadrics ? &quadrics_ : nullptr, image);
     }
 
@@ -195,7 +199,7 @@ class Frame::Worker {
         for_each_tile(macro, quadrics, [&] { shade_tile(image, clock); });
     }
     void shade_tile(Image& image, StageClock& clock) {
-        if (tables_.is_serial) return trace_serially(image);
+        if (tables_.is_serial) return trace_serially(tile_.x, tile_.y, kTileSide, image);
         if (hit_anything()) {
             shading_.surface(tile_);
             for (std::size_t light = 0; light < scene_.scene().lights.size(); ++light) {
@@ -209,7 +213,7 @@ class Frame::Worker {
             }
         }
         give_up_if_exhausted();
-        if (tables_.is_serial) return trace_serially(image);
+        if (tables_.is_serial) return trace_serially(tile_.x, tile_.y, kTileSide, image);
         shading_.finish(tile_, fallback_, image);
         clock.add_to(spent_.shading);
     }
@@ -217,11 +221,12 @@ class Frame::Worker {
     void give_up_if_exhausted() {
         if (fallback_.is_exhausted()) tables_.is_serial = true;
     }
-    void trace_serially(Image& image) {
+    // A square of the picture.
+    void trace_serially(int left, int top, int side, Image& image) {
         if (!pixels_) pixels_.emplace(serial_);
         const Resolution size = tables_.rays.resolution;
-        for (int y = tile_.y; y < std::min(tile_.y + kTileSide, size.height); ++y)
-            for (int x = tile_.x; x < std::min(tile_.x + kTileSide, size.width); ++x)
+        for (int y = top; y < std::min(top + side, size.height); ++y)
+            for (int x = left; x < std::min(left + side, size.width); ++x)
                 image.at(x, y) = pixels_->pixel(tables_.rays.rays.ray(x, y));
     }
 
@@ -293,7 +298,7 @@ void Frame::find_hits() {
     if (scene_.slot_end() != scene_.triangle_end()) hits.quadrics.resize(tiles.size());
     for_each_tile([&](Worker& worker, std::size_t i) {
         worker.find(tiles[i], hits.tiles[i], hits.quadrics_of(i));
-        hits.seen->add(hits.tiles[i].slot);
+        if (!tables_->is_serial) hits.seen->add(hits.tiles[i].slot);
         add(options_.progress, pixels_of(tiles[i], tables_->rays.resolution));
     });
 }
@@ -341,7 +346,7 @@ Image Frame::render() {
         begin(options_.progress, "primary rays", pixel_count(size));
         find_hits();
         StageClock clock(times_ != nullptr);
-        make_tables_of_hits();
+        if (!tables_->is_serial) make_tables_of_hits();
         if (times_ != nullptr) clock.add_to(times_->tables);
     }
     begin(options_.progress, "pixels", pixel_count(size));
