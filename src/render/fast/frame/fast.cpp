@@ -54,7 +54,7 @@ Image FastTracer::render(Resolution resolution, FastTimes* times) {
 }
 
 std::vector<RayAnswer> FastTracer::closest_hits(std::span<const Ray> rays) const {
-    if (!state_->fast.is_finite())
+    if (!state_->fast.is_ordinary())
         return state_->serial.closest_hits(rays, state_->options.progress);
     std::unique_ptr<SingleRays>& single = state_->single;
     if (!single)

@@ -272,7 +272,7 @@ Frame::~Frame() = default;
 // Tables are for rays from one point.
 bool Frame::can_show(const FastScene& scene) {
     const Camera& camera = scene.scene().camera;
-    return scene.is_finite() && !camera.window &&
+    return scene.is_ordinary() && !camera.window &&
            max_norm(scene.frame().local(camera.position)) < kFarthestCamera;
 }
 

@@ -28,7 +28,7 @@ class SingleRays {
     using Kernel = ExactKernelOf<SceneStore>;
 
   public:
-    /// Keeps a reference to the scene, which is_finite(); makes copies of its own in a layout for
+    /// Keeps a reference to the scene, which is_ordinary(); makes copies of its own in a layout for
     /// rays. `redo_exactly`: see FastOptions.
     SingleRays(const FastScene& scene, InstructionSet isa, bool redo_exactly);
 

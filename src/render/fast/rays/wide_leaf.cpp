@@ -71,8 +71,9 @@ void put_corners(const Grid& grid, std::span<const Triangle> triangles,
                 numbers.push_back(static_cast<std::uint16_t>(std::nearbyint(
                     std::ldexp((t.*corner)[axis] - static_cast<double>(grid.base[axis]),
                                -grid.exponent[axis]))));
+    if (numbers.size() % 2 != 0) numbers.push_back(0);
     const std::size_t place = words.size();
-    words.resize(place + (numbers.size() + 1) / 2);
+    words.resize(place + numbers.size() / 2);
     std::memcpy(words.data() + place, numbers.data(), numbers.size() * sizeof(std::uint16_t));
 }
 
@@ -168,7 +169,7 @@ std::vector<Sorted> sort_by_kind(const FastScene& scene, std::span<const Slot> s
 }
 
 WideLeafHead head_of(const Sorted& sorted, const Grid& grid, bool more) {
-    WideLeafHead head;
+    WideLeafHead head{};
     for (int axis = 0; axis < 3; ++axis) {
         head.base[axis] = grid.base[axis];
         head.exponent[axis] = static_cast<std::int8_t>(grid.exponent[axis]);

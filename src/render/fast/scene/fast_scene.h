@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -11,6 +10,7 @@
 #include "nuvo/math/big_vector.h"
 #include "nuvo/math/bounds.h"
 #include "nuvo/octree/compact_build.h"
+#include "nuvo/octree/walk.h"
 #include "nuvo/render/fast.h"
 #include "nuvo/render/primitives.h"
 #include "nuvo/scene/scene.h"
@@ -49,8 +49,11 @@ class FastScene {
     const Bounds3& triangle_box() const { return primitives_.kind(PrimitiveKind::kTriangle).box; }
     /// Of all boxes of primitives; world space.
     double largest_coordinate() const { return largest_coordinate_; }
-    /// No primitive's box ends beyond the doubles, where only exact arithmetic knows it.
-    bool is_finite() const { return std::isfinite(largest_coordinate_); }
+    /// Of a size at which no product of the local frame and a ray leaves the doubles; scenes of
+    /// others are the serial tracer's.
+    bool is_ordinary() const {
+        return largest_coordinate_ == 0 || detail::is_ordinary(largest_coordinate_);
+    }
     const CompactOctree& octree() const { return octree_; }
     /// Bounds |coordinate| in the octree's box, in the local frame; 1 for an empty scene.
     double reach() const { return reach_; }
