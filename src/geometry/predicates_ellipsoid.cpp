@@ -8,12 +8,10 @@ RoundedQuadratic rounded_quadratic(const ExactRay& ray, const Ellipsoid& ellipso
     const BoundedMatrix adjugate = bounded_adjugate(ellipsoid.linear);
     const BoundedVector f = product(adjugate, ray.origin() - ellipsoid.center);
     const BoundedVector g = product(adjugate, ray.direction());
-    const Vector3& first = ellipsoid.linear.row[0];
-    const double radius = dot(first, adjugate.value.column(0)) * ellipsoid.radius;
-    const double radius_error = (gamma(8) * dot(magnitude(first), adjugate.magnitude.column(0)) +
-                                 64 * kUnderflow * (sum(magnitude(first)) + 1)) *
-                                    ellipsoid.radius * (1 + gamma(4)) +
-                                gamma(2) * std::fabs(radius) + kUnderflow;
+    const Bounded<double> det = determinant(ellipsoid.linear, adjugate);
+    const double radius = det.value * ellipsoid.radius;
+    const double radius_error =
+        det.error * ellipsoid.radius * (1 + gamma(4)) + gamma(2) * std::fabs(radius) + kUnderflow;
     RoundedQuadratic q;
     q.f = f.value;
     q.g = g.value;

@@ -10,24 +10,13 @@ namespace {
 Ellipsoid as_ellipsoid(const Sphere& sphere) { return {sphere.center, Matrix3{}, sphere.radius}; }
 const Ellipsoid& as_ellipsoid(const Ellipsoid& ellipsoid) { return ellipsoid; }
 
-struct BoundedNumber {
-    double value;
-    double error;
-};
-
-BoundedNumber determinant(const Matrix3& m, const BoundedMatrix& adjugate) {
-    return {dot(m.row[0], adjugate.value.column(0)),
-            gamma(8) * dot(magnitude(m.row[0]), adjugate.magnitude.column(0)) +
-                64 * kUnderflow * (sum(magnitude(m.row[0])) + 1)};
-}
-
 double norm(const Vector3& v) { return std::sqrt(dot(v, v)) * (1 + gamma(4)); }
 double size(const Matrix3& m) {
     return norm({norm(m.row[0]), norm(m.row[1]), norm(m.row[2])}) * (1 + gamma(4));
 }
 
 /// v / d.
-BoundedVector quotient(const BoundedVector& v, const BoundedNumber& d) {
+BoundedVector quotient(const BoundedVector& v, const Bounded<double>& d) {
     const double left = std::fabs(d.value) - d.error;
     const Vector3 value = v.value * (1 / d.value);
     const double error = (v.error + norm(value) * (d.error + gamma(4) * std::fabs(d.value))) /
@@ -50,7 +39,7 @@ BoundedVector on_sphere(const ExactRay& ray, const Ellipsoid& ellipsoid, SphereR
 std::optional<int> sure_order(const ExactRay& ray, const Ellipsoid& a, const BoundedVector& s,
                               const Ellipsoid& b, SphereRoot which_b) {
     const BoundedMatrix adjugate = bounded_adjugate(b.linear);
-    const BoundedNumber det = determinant(b.linear, adjugate);
+    const Bounded<double> det = determinant(b.linear, adjugate);
     // The point of a, from b's centre, is b.linear (s + w) with w = b.linear^-1 v.
     Matrix3 change = a.linear;
     for (int i = 0; i < 3; ++i) change.row[i] = change.row[i] - b.linear.row[i];

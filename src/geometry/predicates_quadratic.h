@@ -55,6 +55,12 @@ inline BoundedMatrix bounded_adjugate(const Matrix3& m) {
     return {m.adjugate(), magnitudes.transposed()};
 }
 
+inline Bounded<double> determinant(const Matrix3& m, const BoundedMatrix& adjugate) {
+    return {dot(m.row[0], adjugate.value.column(0)),
+            gamma(8) * dot(magnitude(m.row[0]), adjugate.magnitude.column(0)) +
+                64 * kUnderflow * (sum(magnitude(m.row[0])) + 1)};
+}
+
 /// A vector with a bound of its error in 2-norm.
 struct BoundedVector {
     Vector3 value;
