@@ -349,7 +349,8 @@ TEST(CameraBounds, HoldTheFunctionsOfSpheres) {
             const Primitives primitives = flatten(view.scene, LeafContent::kPrimitives);
             const FastScene fast(view.scene, primitives, OctreeType::kUniform, 1);
             const CameraRays camera(view.scene.camera, kPicture, fast.frame());
-            const CameraTables tables(fast, camera, isa);
+            CameraTables tables(fast, camera, isa);
+            fill_tables(fast, 1, tables);
             const CameraSphere& sphere = tables.spheres[0];
             if (sphere.exactly) continue;
             ConicAnswers found;

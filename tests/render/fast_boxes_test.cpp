@@ -35,7 +35,8 @@ Findings compare(const Scene& scene, InstructionSet isa) {
     const Primitives primitives = flatten(scene, LeafContent::kPrimitives);
     const FastScene fast(scene, primitives, OctreeType::kUniform, 1);
     const CameraRays camera(scene.camera, kSize, fast.frame());
-    const CameraTables tables(fast, camera, isa);
+    CameraTables tables(fast, camera, isa);
+    fill_tables(fast, 1, tables);
     const ExactFallback fallback(fast, camera);
     Findings found;
     for (Slot slot = fast.triangle_end(); slot < fast.slot_end(); ++slot) {
@@ -58,7 +59,8 @@ Findings compare_alone(const Scene& scene, InstructionSet isa) {
     const Primitives primitives = flatten(scene, LeafContent::kPrimitives);
     const FastScene fast(scene, primitives, OctreeType::kUniform, 1);
     const CameraRays camera(scene.camera, kSize, fast.frame());
-    const CameraTables tables(fast, camera, isa);
+    CameraTables tables(fast, camera, isa);
+    fill_tables(fast, 1, tables);
     const ExactFallback fallback(fast, camera);
     static_assert(kSize.width <= kMacroSide && kSize.height <= kMacroSide);
     const auto job =

@@ -42,10 +42,12 @@ class ShadedPicture {
     }
 
     Shaded shade(InstructionSet isa, bool redo_exactly = true) {
-        const CameraTables tables(fast_, camera_, isa);
+        CameraTables tables(fast_, camera_, isa);
+        fill_tables(fast_, 1, tables);
         PrimaryJob job{fast_, camera_, tables, fallback_, true, {}};
         const PrimaryStage primary(isa);
-        const ShadingTables shading(fast_, camera_, tables.spheres, resolved(isa));
+        ShadingTables shading(fast_, camera_, tables.spheres, resolved(isa));
+        fill_tables(fast_, 1, shading);
         ShadingStage stage(shading, redo_exactly);
         Image image(size_.width, size_.height);
         const auto macro = std::make_unique<MacroTile>();

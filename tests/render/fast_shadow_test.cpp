@@ -44,7 +44,8 @@ class ShadowPicture {
 
     /// Pixels whose lights differ from the exact profile's. `lights` = 0: the scene's.
     int wrong_pixels(InstructionSet isa) {
-        const ShadowTables tables(fast_, isa);
+        ShadowTables tables(fast_, isa);
+        fill_tables(fast_, 1, tables);
         ShadowStage stage(tables, isa, true);
         int wrong = 0;
         for (int y = 0; y < size_.height; y += kTileSide)
@@ -228,7 +229,8 @@ TEST(ShadowPlanes, NeverContradictTheExactPredicateWhereTheyAreSure) {
         scene.lights = hard_lights(random, scene);
         const Primitives primitives = flatten(scene, LeafContent::kPrimitives);
         const FastScene fast(scene, primitives, OctreeType::kUniform, 1);
-        const ShadowTables tables(fast, resolved(InstructionSet::kBest));
+        ShadowTables tables(fast, resolved(InstructionSet::kBest));
+        fill_tables(fast, 1, tables);
         StageCounts counts;
         int sure[2] = {};
         for (int i = 0; i < 40000; ++i) {

@@ -138,7 +138,8 @@ TEST(LightBuffer, ListsEveryItemThatBlocksAPointKnownWellEnough) {
         const FastScene fast(scene, primitives, OctreeType::kUniform, 1);
         Occlusion occlusion(scene, fast);
         for (const InstructionSet isa : supported_instruction_sets()) {
-            const ShadowTables tables(fast, isa);
+            ShadowTables tables(fast, isa);
+            fill_tables(fast, 1, tables);
             for (int i = 0; i < 1500; ++i) {
                 const std::size_t l = random() % scene.lights.size();
                 const LightBuffer& buffer = tables.table(l).buffer;
@@ -178,7 +179,8 @@ TEST(LightBuffer, ListsFewItemsWhereNoneIsLarge) {
     scene.lights[0].direction = {0, 0, -1};
     const Primitives primitives = flatten(scene, LeafContent::kPrimitives);
     const FastScene fast(scene, primitives, OctreeType::kUniform, 1);
-    const ShadowTables tables(fast, resolved(InstructionSet::kBest));
+    ShadowTables tables(fast, resolved(InstructionSet::kBest));
+    fill_tables(fast, 1, tables);
     const LightBuffer& buffer = tables.table(0).buffer;
     ASSERT_TRUE(buffer.usable());
     ASSERT_FALSE(buffer.map.inside);

@@ -99,13 +99,16 @@ bool same_bytes(const Table& a, const Table& b) {
 TEST_F(TriangleChunkTest, TablesDoNotDependOnWhenAndByHowManyTheyAreFilled) {
     const CameraRays rays(scene_.camera, {64, 48}, fast_.frame());
     const InstructionSet isa = resolved(InstructionSet::kBest);
-    const CameraTables camera(fast_, rays, isa);
-    const ShadowTables shadow(fast_, isa);
-    const ShadingTables shading(fast_, rays, camera.spheres, isa);
+    CameraTables camera(fast_, rays, isa);
+    ShadowTables shadow(fast_, isa);
+    ShadingTables shading(fast_, rays, camera.spheres, isa);
+    fill_tables(fast_, 1, shading);
+    fill_tables(fast_, 1, shadow);
+    fill_tables(fast_, 1, camera);
     for (const int threads : {1, 2, 7}) {
-        CameraTables camera_later(fast_, rays, isa, threads, TableFilling::kLater);
-        ShadowTables shadow_later(fast_, isa, threads, TableFilling::kLater);
-        ShadingTables shading_later(fast_, rays, camera_later.spheres, isa, TableFilling::kLater);
+        CameraTables camera_later(fast_, rays, isa, threads);
+        ShadowTables shadow_later(fast_, isa, threads);
+        ShadingTables shading_later(fast_, rays, camera_later.spheres, isa);
         fill_tables(fast_, threads, camera_later, shadow_later, shading_later);
         ASSERT_EQ(camera.spheres.size(), camera_later.spheres.size());
         for (std::size_t i = 0; i < camera.spheres.size(); ++i) {
@@ -128,7 +131,8 @@ TEST_F(TriangleChunkTest, TablesDoNotDependOnWhenAndByHowManyTheyAreFilled) {
 }
 
 TEST_F(TriangleChunkTest, SidesOfALightAreKnownWhereItStandsWithinTheScene) {
-    const ShadowTables tables(fast_, resolved(InstructionSet::kBest));
+    ShadowTables tables(fast_, resolved(InstructionSet::kBest));
+    fill_tables(fast_, 1, tables);
     EXPECT_TRUE(tables.table(0).quadric_sides.empty());  // a direction is outside of all
     const Point3& lamp = scene_.lights[1].location;
     for (Slot slot = fast_.triangle_end(); slot < fast_.slot_end(); ++slot) {
@@ -149,7 +153,8 @@ TEST_F(TriangleChunkTest, ALightWithinASphereIsInsideOfIt) {
     scene_.lights[1].location = std::get<Sphere>(scene_.objects[3].shape).center;
     for (const bool solid : {false, true}) {
         scene_.objects[3].solid = solid;
-        const ShadowTables tables(fast_, resolved(InstructionSet::kBest));
+        ShadowTables tables(fast_, resolved(InstructionSet::kBest));
+        fill_tables(fast_, 1, tables);
         ASSERT_FALSE(tables.table(1).quadric_sides.empty());
         EXPECT_EQ(tables.table(1).quadric_sides[0], solid ? LightSide::kBlind : LightSide::kInside);
     }
@@ -159,7 +164,8 @@ TEST_F(TriangleChunkTest, NothingThatCastsNoShadowHidesAnything) {
     for (Object& object : scene_.objects) object.casts_shadow = false;
     const Primitives primitives = flatten(scene_, LeafContent::kPrimitives);
     const FastScene fast(scene_, primitives, OctreeType::kUniform, 1);
-    const ShadowTables tables(fast, resolved(InstructionSet::kBest));
+    ShadowTables tables(fast, resolved(InstructionSet::kBest));
+    fill_tables(fast, 1, tables);
     for (std::size_t light = 0; light < scene_.lights.size(); ++light) {
         for (Slot slot = 0; slot < fast.triangle_end(); ++slot)
             ASSERT_EQ(tables.table(light).hides[slot / 8] >> slot % 8 & 1, 0);

@@ -45,11 +45,10 @@ CameraSphere make_sphere(const Point3& eye, double scale, const Point3& center, 
 }  // namespace
 
 CameraTables::CameraTables(const FastScene& scene, const CameraRays& camera, InstructionSet isa,
-                           int threads, TableFilling filling)
+                           int threads)
     : scene_(scene), camera_(camera), isa_(isa), threads_(threads) {
     spheres.resize(scene.slot_end() - scene.triangle_end());
     boxes.resize(spheres.size());
-    if (filling == TableFilling::kNow) fill_tables(scene, threads, *this);
 }
 
 void CameraTables::take_quadrics(QuadricSpan quadrics) {

@@ -57,9 +57,9 @@ inline constexpr PixelBox kNoPixels{};
 /// Of the spheres and ellipsoids; made anew for each picture.
 class CameraTables {
   public:
-    /// Keeps references.
+    /// Keeps references. fill_tables() fills them.
     CameraTables(const FastScene& scene, const CameraRays& camera, InstructionSet isa,
-                 int threads = 1, TableFilling filling = TableFilling::kNow);
+                 int threads = 1);
 
     /// For fill_tables(); by several threads at a time.
     void take(const TriangleChunk&) {}

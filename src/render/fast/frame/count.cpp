@@ -31,7 +31,8 @@ std::uint64_t shadow_rays(const FastScene& scene, const ExactFallback& fallback,
 RayCounts count_rays(const FastScene& scene, InstructionSet isa, Resolution resolution,
                      Progress* progress) {
     const CameraRays camera(scene.scene().camera, resolution, scene.frame());
-    const CameraTables tables(scene, camera, isa);
+    CameraTables tables(scene, camera, isa);
+    fill_tables(scene, 1, tables);
     const ExactFallback fallback(scene, camera);
     const auto job =
         std::make_unique<PrimaryJob>(PrimaryJob{scene, camera, tables, fallback, true, {}});

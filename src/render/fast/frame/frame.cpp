@@ -86,8 +86,8 @@ struct Frame::Tables {
           tiles(tiles_in_order(resolution, kMacroSide)),
           two_passes(listing == ShadowListing::kMeasured ? shadows_pay(scene, resolution)
                                                          : listing == ShadowListing::kWanted) {
-        camera.emplace(scene, rays, options.isa, options.threads, TableFilling::kLater);
-        surfaces.emplace(scene, rays, camera->spheres, options.isa, TableFilling::kLater);
+        camera.emplace(scene, rays, options.isa, options.threads);
+        surfaces.emplace(scene, rays, camera->spheres, options.isa);
         if (two_passes) {
             for_each_quadric_part(scene, options.threads,
                                   [&](QuadricSpan some) { camera->take_quadrics(some); });

@@ -20,7 +20,7 @@ class KeptShadows {
     template <typename Fill>
     const ShadowTables& make(const FastScene& scene, InstructionSet isa, int threads, Fill&& fill) {
         tables_.reset();
-        ShadowTables tables(scene, isa, threads, TableFilling::kLater);
+        ShadowTables tables(scene, isa, threads);
         fill(tables);
         lights_ = scene.scene().lights;
         return tables_.emplace(std::move(tables));

@@ -100,33 +100,6 @@ LocalRay::LocalRay(const Ray& ray, const LocalFrame& frame, float reach) {
     for (int axis = 0; axis < 3; ++axis) {
         origin[axis] = o[axis];
         step[axis] = d[axis];
-        direction[axis] = static_cast<float>(d[axis]);
-    }
-    prepare_slabs(reach);
-    square = static_cast<float>(dot(d, d));
-    // A point of the ray at a box's entry lies within 2 margins of that box, which is to be less
-    // than 2^14 units of the leaf's grid; and its error less than 2^-6 units.
-    const double margin = kSlabRoundings * kFloatRoundoff *
-                              (reach + max_norm(Point3{origin[0], origin[1], origin[2]})) +
-                          error;
-    least_unit = static_cast<float>(larger(margin * 0x1p-13, error * 0x1p6));
-}
-
-void LocalRay::prepare_slabs(float reach) {
-    signs = 0;
-    for (std::uint32_t axis = 0; axis < 3; ++axis) {
-        const std::uint32_t negative = std::signbit(step[axis]) ? 1 : 0;
-        const float size = std::fabs(direction[axis]);
-        const float bounded = size > kLeastDirection ? size : kLeastDirection;
-        const double i = 1 / bounded;
-        const double slack =
-            (kSlabRoundings * kFloatRoundoff * (reach + std::fabs(origin[axis])) + error) * i;
-        const double signed_i = negative != 0 ? -i : i;
-        const double at = -origin[axis] * signed_i;
-        inverse[axis] = static_cast<float>(signed_i);
-        near_add[axis] = static_cast<float>(at - slack);
-        far_add[axis] = static_cast<float>(at + slack);
-        signs |= negative << axis;
     }
 }
 

@@ -44,7 +44,7 @@ constexpr std::array<FacesOnRay, 8> faces_by_signs() {
 }
 inline constexpr std::array<FacesOnRay, 8> kFacesBySigns = faces_by_signs();
 
-/// What LocalRay is, of 16 rays, each with four numbers side by side.
+/// What LocalRay is, and its slabs, of 16 rays, each with four numbers side by side.
 struct RayLanes {
     static constexpr std::size_t kRays = 16;
 

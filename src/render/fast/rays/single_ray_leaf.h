@@ -18,7 +18,7 @@
 // distance, and flat leaves keep their digits.
 //
 // Bounds, with u = 2^-24 and M = kReach the largest difference of two coordinates there: the box is
-// at most 2^16 units wide and the point within 2^14 of it (LocalRay::least_unit). A corner seen
+// at most 2^16 units wide and the point within 2^14 of it (RayLanes: least_unit). A corner seen
 // from the point is off by at most e = kCorner on each axis: its copy kCornerRounding, the point
 // 2^-6 for its error and 2 u M for two roundings of it, the difference u M: less than 0.53.
 

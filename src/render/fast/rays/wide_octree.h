@@ -57,7 +57,7 @@ inline constexpr double kCornerRounding = 0.5 + 0x1p-10;
 /// Smaller leaves are copied as coarsely as 2 to this.
 inline constexpr int kLeastExponent = -38;
 /// And the unit of an axis is no finer than 2 to this unless that of the widest is: from units half
-/// as wide on, rays from far within the scene could not be tested (LocalRay::least_unit).
+/// as wide on, rays from far within the scene could not be tested (RayLanes: least_unit).
 inline constexpr int kFlattestExponent = -32;
 /// Largest number of a corner.
 inline constexpr double kLargestCorner = 65535;

@@ -67,10 +67,6 @@ void for_each_chunk(const FastScene& scene, int threads,
 void for_each_chunk(const FastScene& scene, const BigVector<Slot>& slots, Slot count, int threads,
                     const std::function<void(const TriangleChunk&)>& work);
 
-/// Whether a table's constructor fills what it holds for each triangle and quadric, or leaves
-/// that to fill_tables().
-enum class TableFilling : std::uint8_t { kNow, kLater };
-
 /// Calls work(some) for all quadrics, so few at a time that their objects are still at hand
 /// when the next table asks.
 void for_each_quadric_part(const FastScene& scene, int threads,

@@ -330,8 +330,7 @@ SurfaceWord surface_word(const ShadingTables& tables, const Object& object) {
 }
 
 ShadingTables::ShadingTables(const FastScene& scene_in, const CameraRays& camera_in,
-                             const BigVector<CameraSphere>& spheres_in, InstructionSet isa_in,
-                             TableFilling filling)
+                             const BigVector<CameraSphere>& spheres_in, InstructionSet isa_in)
     : scene(scene_in), camera(camera_in), isa(isa_in), spheres(spheres_in), rays(camera_in) {
     bound_points(*this);
     add_materials(*this);
@@ -342,7 +341,6 @@ ShadingTables::ShadingTables(const FastScene& scene_in, const CameraRays& camera
     if (!uniform) triangle_words.resize(triangles);
     const bool few_lights = lights.size() <= kLightsWithCosines;
     if ((any_flags & kSpecularFlag) != 0 || !few_lights) normals.resize(4 * triangles);
-    if (filling == TableFilling::kNow) fill_tables(scene, 1, *this);
 }
 
 void ShadingTables::take(const TriangleChunk& chunk) { fill_triangles(*this, chunk, isa); }

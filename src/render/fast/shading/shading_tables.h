@@ -124,10 +124,10 @@ struct ShadingBounds {
 };
 
 struct ShadingTables {
-    /// Keeps references; `spheres` are those of CameraTables.
+    /// Keeps references; `spheres` are those of CameraTables. What it holds for each triangle
+    /// fill_tables() fills in.
     ShadingTables(const FastScene& scene, const CameraRays& camera,
-                  const BigVector<CameraSphere>& spheres, InstructionSet isa,
-                  TableFilling filling = TableFilling::kNow);
+                  const BigVector<CameraSphere>& spheres, InstructionSet isa);
 
     /// For fill_tables(); by several threads at a time.
     void take(const TriangleChunk& chunk);

@@ -40,12 +40,10 @@ double radius_around(const Ellipsoid& ellipsoid, double scale, double error) {
 
 }  // namespace
 
-ShadowTables::ShadowTables(const FastScene& scene, InstructionSet isa, int threads,
-                           TableFilling filling)
+ShadowTables::ShadowTables(const FastScene& scene, InstructionSet isa, int threads)
     : scene_(scene), isa_(isa), threads_(threads), dense_(rounded_up(scene.frame().dense)) {
     make_tables();
     for (std::size_t light = 0; light < tables_.size(); ++light) list_all(tables_[light], light);
-    if (filling == TableFilling::kNow) fill_tables(scene, threads, *this);
 }
 
 ShadowTables::ShadowTables(const FastScene& scene, InstructionSet isa, int threads,

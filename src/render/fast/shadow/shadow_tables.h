@@ -46,9 +46,8 @@ struct ShadowTable {
 /// What the shadow stage needs of scene and lights, shared by all threads.
 class ShadowTables {
   public:
-    /// Of all items.
-    ShadowTables(const FastScene& scene, InstructionSet isa, int threads = 1,
-                 TableFilling filling = TableFilling::kNow);
+    /// Of all items; fill_tables() fills them.
+    ShadowTables(const FastScene& scene, InstructionSet isa, int threads = 1);
     /// Of what may stand before the wanted points of each light; of all where these are not known.
     ShadowTables(const FastScene& scene, InstructionSet isa, int threads,
                  const std::vector<std::optional<WantedDepths>>& wanted);

@@ -10,8 +10,8 @@
 #include "crowd.h"
 #include "exact_kernel.h"
 #include "fast/scene/fast_scene.h"
-#include "fast/tile/segment_box.h"
 #include "fast/tile/tile.h"
+#include "leaf_boxes.h"
 #include "surface_color.h"
 
 // What the float stages of the fast tracer leave open is decided here, pixel by pixel, by the very
@@ -91,7 +91,7 @@ class ExactFallback {
     };
 
     bool box_comes_near(const Kernel::Shadow& ray, PrimitiveId id) const {
-        return may_meet(ray.ray, ray.end, scene_.primitives().item_boxes[id]);
+        return !Slabs(ray.ray).surely_missed(scene_.primitives().item_boxes[id], ray.end);
     }
 
     const FastScene& scene_;
