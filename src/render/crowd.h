@@ -136,11 +136,10 @@ class Crowd {
         if (!kernel_.lights_triangle(shadow)) return nullptr;
         Listed<LeafBoxes>& shade = shades_[{*shadow.from, shadow.light}];
         if (is_due(shade)) {
-            std::vector<ItemId> items;
-            for (const ItemId item : items_)
-                if (!kernel_.leaves_in_light(item, shadow)) items.push_back(item);
-            room_ -= std::min(room_, items.size());
-            shade.list = LeafBoxes(items, boxes_of_items_);
+            shade.list = LeafBoxes(boxes_, boxes_of_items_, [&](ItemId item) {
+                return !kernel_.leaves_in_light(item, shadow);
+            });
+            room_ -= std::min(room_, shade.list.items().size());
         }
         return shade.listed ? &shade.list : nullptr;
     }

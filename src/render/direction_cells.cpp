@@ -166,8 +166,9 @@ void DirectionCells::list(ItemId item, std::span<const Point3> corners, const Ed
 
 void DirectionCells::add(ItemId item, const Triangle& triangle) {
     const Point3 corners[3] = {triangle.a, triangle.b, triangle.c};
-    const EdgePlanes planes = edge_planes_through(triangle, point_);
-    list(item, corners, &planes);
+    const auto [planes, is_new] = planes_.try_emplace(item);
+    if (is_new) planes->second = edge_planes_through(triangle, point_);
+    list(item, corners, &planes->second);
 }
 
 void DirectionCells::add(ItemId item, const Bounds3& box) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 #include "nuvo/geometry/predicates.h"
@@ -103,6 +104,7 @@ class DirectionCells {
     Point3 point_;
     std::array<Grid, 6> faces_;
     std::vector<Target> targets_;
+    std::unordered_map<ItemId, EdgePlanes> planes_;  // of triangles, found once for all divisions
     std::size_t size_ = 0;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <span>
 #include <vector>
@@ -65,7 +66,13 @@ class LeafBoxes {
     template <typename Boxes>
     LeafBoxes(std::span<const ItemId> items, const Boxes& boxes)
         : items_(items.begin(), items.end()) {
-        build(0, items_.size(), boxes);
+        build<true>(0, items_.size(), boxes);
+    }
+    /// Of those items of `all` of which `keeps(ItemId)` is true: in its order, which costs no sort.
+    template <typename Boxes, typename Keeps>
+    LeafBoxes(const LeafBoxes& all, const Boxes& boxes, Keeps&& keeps) {
+        std::copy_if(all.items_.begin(), all.items_.end(), std::back_inserter(items_), keeps);
+        build<false>(0, items_.size(), boxes);
     }
 
     std::span<const ItemId> items() const { return items_; }
@@ -97,34 +104,38 @@ class LeafBoxes {
         std::uint32_t next;  // the node after all below this one
     };
 
-    template <typename Boxes>
+    template <bool kSorts, typename Boxes>
     void build(std::size_t first, std::size_t last, const Boxes& boxes) {
         const std::size_t index = nodes_.size();
         Bounds3 box;
-        Bounds3 centers;
-        for (std::size_t k = first; k < last; ++k) {
-            box = box.extended(boxes[items_[k]]);
-            centers = centers.extended(boxes[items_[k]].center());
-        }
+        for (std::size_t k = first; k < last; ++k) box = box.extended(boxes[items_[k]]);
         const bool leaf = last - first <= kItems;
         nodes_.push_back({box, leaf ? static_cast<std::uint32_t>(first) : 0,
                           leaf ? static_cast<std::uint32_t>(last) : 0, 0});
         if (!leaf) {
-            const Vector3 w = centers.widths();
-            const int axis = w.x >= w.y && w.x >= w.z ? 0 : w.y >= w.z ? 1 : 2;
-            const std::size_t middle = (first + last) / 2;
-            const auto at = [&](std::size_t k) {
-                return items_.begin() + static_cast<std::ptrdiff_t>(k);
-            };
-            std::nth_element(at(first), at(middle), at(last), [&](ItemId a, ItemId b) {
-                const double x = boxes[a].center()[axis];
-                const double y = boxes[b].center()[axis];
-                return x != y ? x < y : a < b;
-            });
-            build(first, middle, boxes);
-            build(middle, last, boxes);
+            if constexpr (kSorts) part(first, last, boxes);
+            build<kSorts>(first, (first + last) / 2, boxes);
+            build<kSorts>((first + last) / 2, last, boxes);
         }
         nodes_[index].next = static_cast<std::uint32_t>(nodes_.size());
+    }
+
+    // Halves along the axis on which the centers lie furthest apart.
+    template <typename Boxes>
+    void part(std::size_t first, std::size_t last, const Boxes& boxes) {
+        Bounds3 centers;
+        for (std::size_t k = first; k < last; ++k)
+            centers = centers.extended(boxes[items_[k]].center());
+        const Vector3 w = centers.widths();
+        const int axis = w.x >= w.y && w.x >= w.z ? 0 : w.y >= w.z ? 1 : 2;
+        const auto at = [&](std::size_t k) {
+            return items_.begin() + static_cast<std::ptrdiff_t>(k);
+        };
+        std::nth_element(at(first), at((first + last) / 2), at(last), [&](ItemId a, ItemId b) {
+            const double x = boxes[a].center()[axis];
+            const double y = boxes[b].center()[axis];
+            return x != y ? x < y : a < b;
+        });
     }
 
     std::vector<ItemId> items_;

@@ -176,8 +176,8 @@ TEST_F(BadInput, RaysThatCannotBeReadAreNamedWithTheirLine) {
 }
 
 TEST_F(BadInput, TooLittleMemoryIsAnErrorWithAMessage) {
-#if defined(__SANITIZE_ADDRESS__)
-    GTEST_SKIP() << "the address sanitizer reserves more than any limit";
+#if defined(NUVO_SANITIZED)
+    GTEST_SKIP() << "a sanitizer reserves more than any limit";
 #endif
     put("a.x3d", kSmallScene);
     constexpr rlim_t kBytes = 200'000'000;  // the picture alone takes four times that

@@ -16,7 +16,7 @@ class LoadingCost : public ProgramTest {
         rusage used{};
         ASSERT_EQ(::wait4(child, &status, 0, &used), child);
         EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
-#if defined(NDEBUG) && !defined(__SANITIZE_ADDRESS__)
+#if defined(NDEBUG) && !defined(NUVO_SANITIZED)
         EXPECT_LT(static_cast<double>(used.ru_utime.tv_sec) +
                       static_cast<double>(used.ru_utime.tv_usec) * 1e-6,
                   seconds);

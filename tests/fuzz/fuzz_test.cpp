@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || !defined(NDEBUG)
+#if defined(NUVO_SANITIZED) || !defined(NDEBUG)
 constexpr std::uint64_t kScenes = 20;
 constexpr std::uint64_t kMutations = 2'000;
 #else

@@ -278,7 +278,7 @@ bool finite(const Light& light) {
 }  // namespace
 
 double seconds_allowed() {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if defined(NUVO_SANITIZED)
     return 40;
 #elif defined(NDEBUG)
     return 2;

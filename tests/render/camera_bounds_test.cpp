@@ -384,7 +384,7 @@ TEST(CameraBounds, HoldTheFunctionsOfSpheres) {
         }
         EXPECT_GT(judged, 700);
         EXPECT_GT(hit, 6000);
-        EXPECT_LT(widest, 200 * 0x1p-24);
+        EXPECT_LT(widest, 0x1p-16);
     }
 }
 

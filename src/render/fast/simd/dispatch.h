@@ -32,6 +32,8 @@ InstructionSet resolved(InstructionSet isa);
 #else
 #define NUVO_IF_SSE4(isa, function)
 #endif
-#define NUVO_FOR_ISA(isa, function)                                                          \
-    (NUVO_IF_AVX512(isa, function) NUVO_IF_AVX2(isa, function) NUVO_IF_SSE4(isa, function) & \
-     HWY_NAMESPACE::function)
+// One copy alone needs no choice, and so no `isa`.
+#define NUVO_FOR_ISA(isa, function)                                                    \
+    (static_cast<void>(isa), NUVO_IF_AVX512(isa, function) NUVO_IF_AVX2(isa, function) \
+                                     NUVO_IF_SSE4(isa, function) &                     \
+                                 HWY_NAMESPACE::function)
