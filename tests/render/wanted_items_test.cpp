@@ -3,11 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <memory>
 #include <random>
 
+#include "fast/frame/frame.h"
 #include "fast/simd/dispatch.h"
+#include "fast_cases.h"
 #include "nuvo/geometry/predicates.h"
 #include "nuvo/geometry/shape.h"
 #include "property/test_scenes.h"
@@ -115,6 +118,72 @@ TEST(WantedItems, HoldWhateverBlocksAWantedPoint) {
     const int sets = static_cast<int>(supported_instruction_sets().size());
     EXPECT_GT(blocking, 3000 * sets);
     EXPECT_GT(left_out, 300 * sets);
+}
+
+// Points that a picture did not show may be shown by the next: they walk the octree.
+TEST(KeptShadows, ServePicturesOfOtherCameras) {
+    constexpr Resolution kSize{96, 64};
+    for (unsigned seed = 1; seed <= 3; ++seed) {
+        std::mt19937_64 random(seed);
+        Scene scene = testing::random_scene(seed, 300);
+        scene.lights = some_lights(random);
+        const Primitives primitives = flatten(scene, LeafContent::kPrimitives);
+        const FastScene fast(scene, primitives, OctreeType::kUniform, 1);
+        SerialTree serial(fast);
+        for (const InstructionSet isa : supported_instruction_sets()) {
+            const FastOptions options{OctreeType::kUniform, 2, isa};
+            KeptShadows kept;
+            const ShadowTables* tables = nullptr;
+            for (int picture = 0; picture < 4; ++picture) {
+                const Point3 eye = uniform_point(random, 1) + Vector3{0, 0, 2};
+                scene.camera = testing::camera_along(eye, Point3{} - eye);
+                const Image expected = testing::exact_picture(scene, primitives, kSize);
+                Frame frame(serial, options, kSize, nullptr, kept, ShadowListing::kKept);
+                EXPECT_EQ(testing::difference(expected, frame.render()), "") << "seed " << seed;
+                if (picture == 0) tables = kept.find(scene.lights);
+                ASSERT_NE(tables, nullptr);
+                EXPECT_FALSE(tables->complete());
+                EXPECT_EQ(kept.find(scene.lights), tables);
+            }
+            scene.lights.pop_back();
+            EXPECT_EQ(kept.find(scene.lights), nullptr);
+        }
+    }
+}
+
+TEST(WantedDepths, CoverThePointsThatTheyCount) {
+    int covered = 0;
+    int all = 0;
+    std::mt19937_64 random(7);
+    Scene scene = testing::random_scene(7, 300);
+    const Primitives primitives = flatten(scene, LeafContent::kPrimitives);
+    const FastScene fast(scene, primitives, OctreeType::kUniform, 1);
+    const auto some = std::make_unique<WantedTile>(random, fast);
+    const auto others = std::make_unique<WantedTile>(random, fast);
+    for (const InstructionSet isa : supported_instruction_sets())
+        for (const Light& light : some_lights(random)) {
+            std::optional<WantedDepths> depths =
+                WantedDepths::of(fast, LightPoint(light, fast.frame()), isa);
+            ASSERT_TRUE(depths);
+            const auto count = [&](const WantedTile& tile) {
+                TileMask lanes;
+                std::copy(std::begin(tile.wanted), std::end(tile.wanted), lanes);
+                depths->keep_covered(tile.tile, lanes);
+                int lanes_left = 0;
+                for (const std::uint16_t block : lanes) lanes_left += std::popcount(block);
+                return lanes_left;
+            };
+            EXPECT_EQ(count(*some), 0);
+            depths->add(some->tile, some->wanted);
+            depths->finish();
+            const int known = count(*some);
+            covered += known;
+            EXPECT_LT(count(*others), kTileLanes);
+            depths->add(others->tile, others->wanted);
+            EXPECT_GE(count(*some), known);
+            all += kTileLanes;
+        }
+    EXPECT_GT(covered, all / 2);
 }
 
 TEST(WantedItems, AreNoneWhereNoPointIsWanted) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <chrono>
 #include <optional>
 
@@ -49,6 +50,12 @@ class StageClock {
     double last_;
 };
 
+std::size_t lane_count(const TileMask& lanes) {
+    std::size_t count = 0;
+    for (const std::uint16_t block : lanes) count += static_cast<std::size_t>(std::popcount(block));
+    return count;
+}
+
 std::uint64_t pixels_of(TilePlace place, Resolution size) {
     const int x = place.column * kMacroSide;
     const int y = place.row * kMacroSide;
@@ -58,24 +65,18 @@ std::uint64_t pixels_of(TilePlace place, Resolution size) {
 
 }  // namespace
 
-// What all pixels show, and of each light where the wanted points are, if shadows are made for
-// these.
+// What all pixels show.
 struct Frame::Hits {
     BigVector<MacroTile> tiles;         // in the order of Tables::tiles
     BigVector<MacroQuadrics> quadrics;  // the same; empty: the scene has none
     std::optional<SeenTriangles> seen;
-    std::vector<std::optional<WantedDepths>> wanted;  // by light
 
     MacroQuadrics* quadrics_of(std::size_t i) { return quadrics.empty() ? nullptr : &quadrics[i]; }
     const MacroQuadrics* quadrics_of(std::size_t i) const {
         return quadrics.empty() ? nullptr : &quadrics[i];
     }
     std::size_t memory_bytes() const {
-        std::size_t bytes =
-            tiles.size() * sizeof(MacroTile) + quadrics.size() * sizeof(MacroQuadrics);
-        for (const std::optional<WantedDepths>& light : wanted)
-            if (light) bytes += light->memory_bytes();
-        return bytes;
+        return tiles.size() * sizeof(MacroTile) + quadrics.size() * sizeof(MacroQuadrics);
     }
 };
 
@@ -85,7 +86,7 @@ struct Frame::Tables {
         : rays(scene.scene().camera, resolution, scene.frame()),
           tiles(tiles_in_order(resolution, kMacroSide)),
           two_passes(listing == ShadowListing::kMeasured ? shadows_pay(scene, resolution)
-                                                         : listing == ShadowListing::kWanted) {
+                                                         : listing != ShadowListing::kAll) {
         camera.emplace(scene, rays, options.isa, options.threads);
         surfaces.emplace(scene, rays, camera->spheres, options.isa);
         if (two_passes) {
@@ -93,11 +94,13 @@ struct Frame::Tables {
                                   [&](QuadricSpan some) { camera->take_quadrics(some); });
             camera->finish();
             hits.seen.emplace(scene);
-        } else if ((shadow = kept.find(scene.scene().lights)) != nullptr) {
+        } else if ((shadow = kept.find(scene.scene().lights)) != nullptr && shadow->complete()) {
             fill_tables(scene, options.threads, *camera, *surfaces);
         } else {
-            shadow = &kept.make(scene, options.isa, options.threads, [&](ShadowTables& all) {
+            shadow = &kept.keep(scene.scene().lights, [&] {
+                ShadowTables all(scene, options.isa, options.threads);
                 fill_tables(scene, options.threads, all, *camera, *surfaces);
+                return all;
             });
         }
         shading.emplace(*surfaces, options.redo_exactly);
@@ -109,7 +112,7 @@ struct Frame::Tables {
     std::atomic<bool> is_serial = false;  // what is left is for the serial tracer
     std::optional<CameraTables> camera;
     const ShadowTables* shadow = nullptr;
-    std::optional<ShadowTables> wanted_shadow;  // of what may stand before wanted points
+    bool new_points = false;  // its items were listed for another picture
     std::optional<ShadingTables> surfaces;
     std::optional<ShadingStage> shading;  // copied by each thread; the copies share its tables
     Hits hits;
@@ -153,14 +156,14 @@ class Frame::Worker {
         give_up_if_exhausted();
         clock.add_to(spent_.primary);
     }
-    /// Calls use(wanted depths of a light, tile, wanted lanes) for the tiles of a macro tile.
+    /// Calls use(light, tile, wanted lanes) for the tiles of a macro tile and lights with shadows.
     template <typename Use>
     void want(std::size_t i, Use&& use) {
         for_each_tile(tables_.hits.tiles[i], tables_.hits.quadrics_of(i), [&] {
             if (!hit_anything()) return;
             shading_.surface(tile_);
             for (std::size_t light = 0; light < scene_.scene().lights.size(); ++light) {
-                if (!tables_.hits.wanted[light]) continue;
+                if (!scene_.scene().lights[light].casts_shadow) continue;
                 TileMask wanted;
                 shading_.sample(tile_, light, wanted);
                 use(light, tile_, wanted);
@@ -172,7 +175,9 @@ class Frame::Worker {
         if (tables_.is_serial)
             return trace_serially(place.column * kMacroSide, place.row * kMacroSide, kMacroSide,
                                   image);
-        if (!shadow_) shadow_.emplace(*tables_.shadow, options_.isa, options_.redo_exactly);
+        if (!shadow_)
+            shadow_.emplace(*tables_.shadow, options_.isa, options_.redo_exactly,
+                            tables_.new_points);
         if (tables_.two_passes) {
             shade(tables_.hits.tiles[i], tables_.hits.quadrics_of(i), image);
             return;
@@ -307,36 +312,66 @@ void Frame::make_tables_of_hits() {
     const BigVector<Slot> seen = tables_->hits.seen->slots();
     for_each_chunk(scene_, seen, static_cast<Slot>(seen.size()), options_.threads,
                    [&](const TriangleChunk& chunk) { tables_->surfaces->take(chunk); });
-    // Where most is seen most may hide something.
-    constexpr std::size_t kMostSeen = 4;
-    if (listing_ != ShadowListing::kMeasured || seen.size() * kMostSeen <= scene_.slot_end()) {
-        find_wanted();
-        tables_->wanted_shadow.emplace(scene_, options_.isa, options_.threads,
-                                       tables_->hits.wanted);
-        tables_->shadow = &*tables_->wanted_shadow;
+    const std::vector<Light>& lights = scene_.scene().lights;
+    tables_->shadow = kept_.find(lights);
+    if (tables_->shadow != nullptr && serves(*tables_->shadow)) {
+        tables_->new_points = true;
         return;
     }
-    tables_->shadow = kept_.find(scene_.scene().lights);
-    if (tables_->shadow != nullptr) return;
-    tables_->shadow = &kept_.make(scene_, options_.isa, options_.threads, [&](ShadowTables& all) {
+    const bool has_moved = tables_->shadow != nullptr;  // the camera
+    // Where most is seen most may hide something.
+    constexpr std::size_t kMostSeen = 4;
+    const bool few =
+        listing_ != ShadowListing::kMeasured || seen.size() * kMostSeen <= scene_.slot_end();
+    tables_->shadow = &kept_.keep(lights, [&] {
+        if (few)
+            return ShadowTables(scene_, options_.isa, options_.threads, find_wanted(has_moved));
+        ShadowTables all(scene_, options_.isa, options_.threads);
         fill_tables(scene_, options_.threads, all);
+        return all;
     });
 }
 
-void Frame::find_wanted() {
-    std::vector<std::optional<WantedDepths>>& all = tables_->hits.wanted;
+// Whether kept tables list enough for all but a few points, as far as some tiles tell; the few walk
+// the octree.
+bool Frame::serves(const ShadowTables& kept) {
+    if (listing_ == ShadowListing::kWanted) return false;
+    if (listing_ == ShadowListing::kKept || kept.complete()) return true;
+    constexpr std::size_t kStep = 16;   // one of so many tiles is asked
+    constexpr std::size_t kMost = 128;  // points to one that is not served
+    std::atomic<std::size_t> asked = 0;
+    std::atomic<std::size_t> served = 0;
+    for_each_tile([&](Worker& worker, std::size_t i) {
+        if (i % kStep != 0) return;
+        worker.want(i, [&](std::size_t light, const Tile& tile, TileMask& lanes) {
+            asked += lane_count(lanes);
+            if (kept.table(light).wanted) kept.table(light).wanted->keep_covered(tile, lanes);
+            served += lane_count(lanes);
+        });
+    });
+    return (asked - served) * kMost <= asked;
+}
+
+// Of each light, where it tells places, how deep the points are that this picture shows;
+// `and_near`: and those near them.
+std::vector<std::optional<WantedDepths>> Frame::find_wanted(bool and_near) {
+    std::vector<std::optional<WantedDepths>> all;
     for (const Light& light : scene_.scene().lights) {
-        std::optional<WantedDepths>& wanted = all.emplace_back();
+        std::optional<WantedDepths>& depths = all.emplace_back();
         if (light.casts_shadow)
-            wanted = WantedDepths::of(scene_, LightPoint(light, scene_.frame()), options_.isa);
+            depths = WantedDepths::of(scene_, LightPoint(light, scene_.frame()), options_.isa);
     }
     for_each_tile([&](Worker& worker, std::size_t i) {
         worker.want(i, [&](std::size_t light, const Tile& tile, const TileMask& wanted) {
-            all[light]->add(tile, wanted);
+            if (all[light]) all[light]->add(tile, wanted);
         });
     });
-    for (std::optional<WantedDepths>& wanted : all)
-        if (wanted) wanted->finish();
+    for (std::optional<WantedDepths>& depths : all) {
+        if (!depths) continue;
+        if (and_near) depths->widen();
+        depths->finish();
+    }
+    return all;
 }
 
 Image Frame::render() {

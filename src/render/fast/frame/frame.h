@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "fast/frame/kept_shadows.h"
@@ -12,8 +13,9 @@
 namespace nuvo {
 
 /// For which items shadows are made: for all before the first pixel, or, once it is known what all
-/// pixels show, for those that may stand before some lit point. Pictures are the same.
-enum class ShadowListing : std::uint8_t { kMeasured, kAll, kWanted };
+/// pixels show, for those that may stand before some lit point; kKept: as for another picture, if
+/// that is kept. Pictures are the same.
+enum class ShadowListing : std::uint8_t { kMeasured, kAll, kWanted, kKept };
 
 /// All that one picture needs, and the loop over its tiles.
 class Frame {
@@ -40,7 +42,8 @@ class Frame {
     void for_each_tile(Work&& work);
     void find_hits();
     void make_tables_of_hits();
-    void find_wanted();
+    bool serves(const ShadowTables& kept);
+    std::vector<std::optional<WantedDepths>> find_wanted(bool and_near);
 
     SerialTree& serial_;
     const FastScene& scene_;

@@ -8,21 +8,21 @@
 
 namespace nuvo {
 
-/// Shadow tables of all items, which do not depend on the camera: for the next pictures of a scene
-/// whose lights stay where they are.
+/// The shadow tables of the last picture, for the next ones of a scene whose lights stay where they
+/// are: those of all items do not depend on the camera, others serve points for which they are
+/// known to list enough.
 class KeptShadows {
   public:
     /// Null: there are none for these lights.
     const ShadowTables* find(const std::vector<Light>& lights) const {
         return tables_ && lights_ == lights ? &*tables_ : nullptr;
     }
-    /// Keeps what `fill` puts into empty tables.
-    template <typename Fill>
-    const ShadowTables& make(const FastScene& scene, InstructionSet isa, int threads, Fill&& fill) {
+    /// Frees what is kept, and keeps what `make` returns instead.
+    template <typename Make>
+    const ShadowTables& keep(const std::vector<Light>& lights, Make&& make) {
         tables_.reset();
-        ShadowTables tables(scene, isa, threads);
-        fill(tables);
-        lights_ = scene.scene().lights;
+        ShadowTables tables = make();
+        lights_ = lights;
         return tables_.emplace(std::move(tables));
     }
 

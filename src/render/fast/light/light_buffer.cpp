@@ -34,9 +34,12 @@ class LightBufferMaker {
         out_.starts.resize(cells_ + 2);
         std::fill(out_.starts.begin(), out_.starts.end(), 0);
         records_.resize(end_ + end_ / 2 + 16);  // some are seen through several faces
-        for (Slot first = 0; first < end_; first += count_from(first))
+        for (Slot first = 0; first < end_; first += count_from(first)) {
+            for (Slot i = first + 16; items_.slots && i < std::min<Slot>(first + 32, end_); ++i)
+                prefetch_corners(items_, items_.slot(i));
             for_each_face(first, [&](int face, const LightRanges& ranges, std::uint32_t lanes)
                                      HWY_ATTR { record(first, face, ranges, lanes); });
+        }
         if (add_up()) fill();
     }
 
@@ -251,6 +254,23 @@ class LightBufferMaker {
             return out_.starts[grid.first_cell] == out_.starts[grid.first_cell + cells_of(grid)];
         });
         if (out_.grids.empty()) out_.grids.push_back(coarsest);  // nothing hides anything
+        for (LightGrid& grid : out_.grids) find_empty_cells(grid);
+    }
+    // Points look at no list in empty cells; that costs more than it saves where few are empty.
+    void find_empty_cells(LightGrid& grid) {
+        constexpr std::uint32_t kCells = 32;  // a word
+        out_.occupied.resize(cells_ / kCells + 1);
+        const std::uint32_t end = grid.first_cell + cells_of(grid);
+        std::uint32_t occupied = 0;
+        for (std::uint32_t cell = grid.first_cell; cell < end; ++cell) {
+            const std::uint32_t lists = out_.starts[cell] != out_.starts[cell + 1] ? 1 : 0;
+            const std::uint32_t bit = cell % kCells;
+            std::int32_t& word = out_.occupied[cell / kCells];
+            word = static_cast<std::int32_t>((static_cast<std::uint32_t>(word) & ~(1U << bit)) |
+                                             lists << bit);
+            occupied += lists;
+        }
+        grid.sparse = 2 * occupied < end - grid.first_cell;
     }
 
     LightBuffer& out_;

@@ -30,6 +30,7 @@ struct LightGrid {
     int columns = 1;
     int rows = 1;
     std::uint32_t first_cell = 0;
+    bool sparse = false;  ///< most of its cells are empty: LightBuffer::occupied is asked first
 };
 
 /// The light buffer of one light. Items are listed on the finest grid on which they cover few
@@ -43,13 +44,15 @@ struct LightBuffer {
     /// False where nothing may be looked up: the light is too far, or lists would be too long.
     bool usable() const { return !grids.empty(); }
     std::size_t memory_bytes() const {
-        return starts.size() * sizeof(std::uint32_t) + entries.size() * sizeof(LightEntry);
+        return (starts.size() + occupied.size()) * sizeof(std::uint32_t) +
+               entries.size() * sizeof(LightEntry);
     }
 
     LightMap map;
-    std::vector<LightGrid> grids;     ///< from fine to coarse
-    BigVector<std::uint32_t> starts;  ///< of the cells' lists, and the end
-    BigVector<LightEntry> entries;    ///< and room for a few more to be read
+    std::vector<LightGrid> grids;      ///< from fine to coarse
+    BigVector<std::uint32_t> starts;   ///< of the cells' lists, and the end
+    BigVector<LightEntry> entries;     ///< and room for a few more to be read
+    BigVector<std::int32_t> occupied;  ///< a bit a cell, 32 in a word: whether it lists anything
 };
 
 }  // namespace nuvo

@@ -322,6 +322,15 @@ class ItemRanges {
     bool inside_ = false;
 };
 
+/// Asks for what corners_of() reads of an item.
+HWY_INLINE void prefetch_corners(const LightItems& items, Slot slot) {
+    const Slot triangle_end = items.scene.triangle_end();
+    if (slot >= triangle_end) return __builtin_prefetch(&items.quadrics[slot - triangle_end]);
+    const LocalTriangle& triangle = items.scene.triangles()[slot];
+    __builtin_prefetch(&triangle.corner[0]);
+    __builtin_prefetch(&triangle.corner[2].z);
+}
+
 /// The corners of `count` items of one kind, at most 16, whose slots are slot_at(0) and on; the
 /// last one's again beyond.
 // No item is met outside of the octree's box, which alone is known to lie on one side of the

@@ -8,7 +8,7 @@
 #define HWY_TARGET_INCLUDE "fast/light/wanted_depths.cpp"
 #include <hwy/foreach_target.h>
 
-#include "fast/light/light_cells.h"
+#include "fast/light/counted_points.h"
 #include "fast/light/light_ranges.h"
 #include "fast/simd/lanes.h"
 
@@ -25,84 +25,45 @@ HWY_INLINE Points points_of(const Tile& tile, int b) {
     return {Floats::load(tile.point[0] + first), Floats::load(tile.point[1] + first),
             Floats::load(tile.point[2] + first)};
 }
+HWY_INLINE Floats errors_of(const Tile& tile, int b) {
+    return Floats::load(tile.point_error + b * kBlockLanes);
+}
 
-// Adds the points of a block: wherever they may be, as deep as they may be.
-class WantedAdder {
-  public:
-    WantedAdder(const LightMap& map, const LightPoint& light, const WantedDepths::Cells& cells)
-        : map_(map), light_(light), cells_(cells) {}
+void deepen(float* cells, std::int32_t place, float depth) {
+    const std::atomic_ref<float> cell(cells[place]);
+    float before = cell.load(std::memory_order_relaxed);
+    while (before < depth &&
+           !cell.compare_exchange_weak(before, depth, std::memory_order_relaxed)) {
+    }
+}
 
-    HWY_INLINE void add(const Points& points, const Floats& error, std::uint32_t lanes) {
-        const LightPlaces places(map_, light_, points, error);
-        lanes &= places.known;
-        if (lanes == 0) return;
-        Ints first[2];
-        Ints last[2];
-        for (int i = 0; i < 2; ++i) {
-            first[i] = cell(step_of(map_, i, places.u[i] - places.moved));
-            last[i] = cell(step_of(map_, i, places.u[i] + places.moved));
-        }
-        const Floats depth = places.depth + error;
-        const Ints row = places.face * Ints(cells_.side);
-        const Ints at = (row + first[1]) * Ints(cells_.side) + first[0];
-        const std::uint32_t single = ((first[0] == last[0]) & (first[1] == last[1])).bits();
+void add_points(const WantedDepths& depths, float* cells, const Tile& tile,
+                const TileMask& wanted) {
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    for (int b = 0; b < kTileBlocks; ++b) {
+        if (wanted[b] == 0) continue;
+        const CountedPoints points(depths, points_of(tile, b), errors_of(tile, b), wanted[b]);
+        if (points.lanes == 0) continue;
         alignas(64) std::int32_t place[kBlockLanes];
-        at.store(place);
-        for (std::uint32_t todo = lanes & single; todo != 0;) {
+        points.cell.store(place);
+        for (std::uint32_t todo = points.single; todo != 0;) {
             const std::int32_t here = place[std::countr_zero(todo)];
-            const std::uint32_t same = todo & (at == Ints(here)).bits();
+            const std::uint32_t same = todo & (points.cell == Ints(here)).bits();
             todo ^= same;
-            deepen(here, highest(select(RayMask::from_bits(same), depth, Floats(-kInfinity))));
+            deepen(cells, here,
+                   highest(select(RayMask::from_bits(same), points.depth, Floats(-kInfinity))));
         }
-        if (const std::uint32_t spread = lanes & ~single; HWY_UNLIKELY(spread != 0))
-            add_spread(first, last, row, depth, spread);
+        if (HWY_UNLIKELY(points.lanes != points.single))
+            points.for_each_of_spread(
+                [&](std::int32_t cell, float depth, int) { deepen(cells, cell, depth); });
     }
+}
 
-  private:
-    static constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
-    HWY_INLINE Ints cell(const Floats& step) const {
-        return integers_from(step) >> Ints(cells_.step_bits);
-    }
-    HWY_NOINLINE void add_spread(const Ints (&first)[2], const Ints (&last)[2], const Ints& row,
-                                 const Floats& depth, std::uint32_t lanes) {
-        alignas(64) std::int32_t low[2][kBlockLanes];
-        alignas(64) std::int32_t high[2][kBlockLanes];
-        alignas(64) std::int32_t rows[kBlockLanes];
-        alignas(64) float depths[kBlockLanes];
-        for (int i = 0; i < 2; ++i) {
-            first[i].store(low[i]);
-            last[i].store(high[i]);
-        }
-        row.store(rows);
-        depth.store(depths);
-        for (; lanes != 0; lanes &= lanes - 1) {
-            const int lane = std::countr_zero(lanes);
-            for (std::int32_t y = low[1][lane]; y <= high[1][lane]; ++y)
-                for (std::int32_t x = low[0][lane]; x <= high[0][lane]; ++x)
-                    deepen((rows[lane] + y) * cells_.side + x, depths[lane]);
-        }
-    }
-    HWY_INLINE void deepen(std::int32_t place, float depth) {
-        const std::atomic_ref<float> cell(cells_.depth[place]);
-        float before = cell.load(std::memory_order_relaxed);
-        while (before < depth &&
-               !cell.compare_exchange_weak(before, depth, std::memory_order_relaxed)) {
-        }
-    }
-
-    const LightMap& map_;
-    const LightPoint& light_;
-    const WantedDepths::Cells& cells_;
-};
-
-void add_points(const LightMap& map, const LightPoint& light, const WantedDepths::Cells& cells,
-                const Tile& tile, const TileMask& wanted) {
-    WantedAdder adder(map, light, cells);
+void covered_points(const WantedDepths& depths, const Tile& tile, TileMask& lanes) {
     for (int b = 0; b < kTileBlocks; ++b)
-        if (wanted[b] != 0)
-            adder.add(points_of(tile, b), Floats::load(tile.point_error + b * kBlockLanes),
-                      wanted[b]);
+        if (lanes[b] != 0)
+            lanes[b] = static_cast<std::uint16_t>(
+                covered(depths, points_of(tile, b), errors_of(tile, b), lanes[b]));
 }
 
 }  // namespace nuvo::HWY_NAMESPACE
@@ -131,6 +92,7 @@ std::optional<WantedDepths> WantedDepths::of(const FastScene& scene, const Light
     out.cells_a_side_ = map.inside ? kFaceSide : kPlaneSide;
     out.step_bits_ = kStepBits - std::countr_zero(static_cast<unsigned>(out.cells_a_side_));
     for (int i = 0; i < 2; ++i) map.steps[i] = static_cast<float>(kLightSteps) / extent[i];
+    out.width_ = std::max(extent[0], extent[1]) / static_cast<float>(out.cells_a_side_);
     map.most_moved =
         kMostCells * std::min(extent[0], extent[1]) / static_cast<float>(out.cells_a_side_);
     std::size_t size = 0;
@@ -144,8 +106,40 @@ std::optional<WantedDepths> WantedDepths::of(const FastScene& scene, const Light
 }
 
 void WantedDepths::add(const Tile& tile, const TileMask& wanted) {
-    const Cells cells{cells_.data(), cells_a_side_, step_bits_};
-    (NUVO_FOR_ISA(isa_, add_points))(map_, light_, cells, tile, wanted);
+    (NUVO_FOR_ISA(isa_, add_points))(*this, cells_.data(), tile, wanted);
+}
+
+void WantedDepths::keep_covered(const Tile& tile, TileMask& lanes) const {
+    (NUVO_FOR_ISA(isa_, covered_points))(*this, tile, lanes);
+}
+
+// Each cell takes the greatest depth of its neighbours on the face, and more as by a slope of 1
+// across a cell.
+void WantedDepths::widen() {
+    const auto side = static_cast<std::size_t>(cells_a_side_);
+    std::vector<float> rows[3];  // the greatest of three cells beside each other
+    for (std::vector<float>& row : rows) row.resize(side);
+    const auto fill = [&](const float* from, std::vector<float>& to) {
+        to[0] = std::max(from[0], from[1]);
+        for (std::size_t x = 1; x + 1 < side; ++x)
+            to[x] = std::max(from[x], std::max(from[x - 1], from[x + 1]));
+        to[side - 1] = std::max(from[side - 2], from[side - 1]);
+    };
+    for (int face = 0; face < map_.faces(); ++face) {
+        float* const cells = cells_.data() + static_cast<std::size_t>(face) * side * side;
+        fill(cells, rows[0]);
+        rows[1] = rows[0];
+        for (std::size_t y = 0; y < side; ++y) {
+            if (y + 1 < side) fill(cells + (y + 1) * side, rows[(y + 2) % 3]);
+            const float* const last = rows[y % 3].data();
+            const float* const here = rows[(y + 1) % 3].data();
+            const float* const next = rows[(y + 1 < side ? y + 2 : y + 1) % 3].data();
+            for (std::size_t x = 0; x < side; ++x) {
+                const float most = std::max(here[x], std::max(last[x], next[x]));
+                cells[y * side + x] = map_.inside ? most * (1 + width_) : most + width_;
+            }
+        }
+    }
 }
 
 void WantedDepths::finish() {

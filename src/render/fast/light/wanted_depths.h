@@ -31,7 +31,11 @@ class WantedDepths {
 
     /// Counts points; for several threads at a time.
     void add(const Tile& tile, const TileMask& wanted);
-    /// Makes the pyramid. After all points.
+    /// Leaves those lanes whose points are known no deeper than points that were added.
+    void keep_covered(const Tile& tile, TileMask& lanes) const;
+    /// After all points: counts others that are near them, as the next camera may see them.
+    void widen();
+    /// Makes the pyramid. After all else.
     void finish();
 
     /// Bounds the depths of points between these steps of a face from above.
@@ -51,12 +55,10 @@ class WantedDepths {
 
     std::size_t memory_bytes() const { return cells_.size() * sizeof(float); }
 
-    /// The finest cells, for the kernels.
-    struct Cells {
-        float* depth;  ///< [face][v][u]
-        int side;      ///< cells
-        int step_bits;
-    };
+    // The finest cells, for the kernels.
+    const float* cells() const { return cells_.data(); }  ///< [face][v][u]
+    int cells_a_side() const { return cells_a_side_; }
+    int step_bits() const { return step_bits_; }
 
   private:
     WantedDepths(const LightPoint& light, InstructionSet isa) : light_(light), isa_(isa) {}
@@ -66,6 +68,7 @@ class WantedDepths {
     InstructionSet isa_;
     int cells_a_side_ = 0;  // of a face; a power of two
     int step_bits_ = 0;     // a cell is this many steps wide, as a power of two
+    float width_ = 0;       // of a cell; inside at a depth of 1
     BigVector<float> cells_;
     std::vector<std::size_t> level_starts_;  // from fine to coarse
 };

@@ -155,26 +155,29 @@ void choose_wanted(const LightItems& items, const WantedDepths& wanted,
                    std::span<const std::uint64_t> words, Slot first, std::vector<Slot>& out) {
     WantedRanges ranges(items, wanted);
     const Slot triangle_end = items.scene.triangle_end();
-    Slot waiting[16];
+    // Those of the second half are on their way from memory while the first is asked about.
+    Slot waiting[32];
     Slot count = 0;
-    const auto flush = [&]() HWY_ATTR {
-        if (count == 0) return;
-        const ItemCorners corners = corners_of(items, count, [&](Slot i) { return waiting[i]; });
-        for (std::uint32_t found = ranges.among(corners, (1U << count) - 1); found != 0;
+    const auto ask = [&]() HWY_ATTR {
+        const Slot some = std::min<Slot>(16, count);
+        const ItemCorners corners = corners_of(items, some, [&](Slot i) { return waiting[i]; });
+        for (std::uint32_t found = ranges.among(corners, (1U << some) - 1); found != 0;
              found &= found - 1)
             out.push_back(waiting[std::countr_zero(found)]);
-        count = 0;
+        std::copy(waiting + some, waiting + count, waiting);
+        count -= some;
     };
     for (const std::uint64_t word : words) {
         for (std::uint64_t bits = word; bits != 0; bits &= bits - 1) {
             const Slot slot = first + static_cast<Slot>(std::countr_zero(bits));
-            if (count == 16 || (count != 0 && waiting[0] < triangle_end && slot >= triangle_end))
-                flush();
+            const bool of_kind = count == 0 || (waiting[0] < triangle_end) == (slot < triangle_end);
+            while (count == 32 || (count != 0 && !of_kind)) ask();
             waiting[count++] = slot;
+            prefetch_corners(items, slot);
         }
         first += 64;
     }
-    flush();
+    while (count != 0) ask();
 }
 
 }  // namespace nuvo::HWY_NAMESPACE

@@ -27,6 +27,7 @@ struct OpenShadow {
 struct ShadowJob {
     const ShadowTables& tables;
     bool redo_exactly;
+    bool new_points;  ///< others than those for which items were listed
     Mailbox mailbox{};
     std::vector<OpenShadow> open{};
     FreePairs free_pairs{tables.scene()};
@@ -36,7 +37,9 @@ struct ShadowJob {
 /// Decides which points of a tile the lights reach. For one thread.
 class ShadowStage {
   public:
-    ShadowStage(const ShadowTables& tables, InstructionSet isa, bool redo_exactly);
+    /// `new_points`: it is asked about others than those that were wanted of the tables.
+    ShadowStage(const ShadowTables& tables, InstructionSet isa, bool redo_exactly,
+                bool new_points = false);
 
     /// Sets in `lit` the lanes of `wanted` that nothing blocks from the light.
     void trace(const Tile& tile, std::size_t light, const TileMask& wanted,

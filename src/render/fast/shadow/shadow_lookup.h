@@ -11,6 +11,7 @@
 #include <bit>
 #include <cmath>
 
+#include "fast/light/counted_points.h"
 #include "fast/light/light_cells.h"
 #include "fast/shadow/shadow_block.h"
 #include "fast/simd/lanes.h"
@@ -24,21 +25,28 @@ namespace nuvo::HWY_NAMESPACE {
 class ShadowLookup {
   public:
     ShadowLookup(const ShadowContext& context, ShadowBlock* blocks)
-        : context_(context), buffer_(context.table.buffer), blocks_(blocks) {}
+        : context_(context),
+          buffer_(context.table.buffer),
+          counted_(context.job.new_points && context.table.wanted ? &*context.table.wanted
+                                                                  : nullptr),
+          blocks_(blocks) {}
 
     /// Finds the cells of block b's points; returns which lanes can be looked up.
     HWY_INLINE std::uint32_t add(int b) {
         if (!buffer_.usable()) return 0;
         const ShadowBlock& block = blocks_[b];
         const LightPlaces places(buffer_.map, context_.table.light, block.points(), block.error());
-        const std::uint32_t good = block.waiting() & places.good;
+        const std::uint32_t there = counted_ == nullptr ? block.waiting()
+                                                        : covered(*counted_, block.points(),
+                                                                  block.error(), block.waiting());
+        const std::uint32_t good = there & places.good;
         Stored stored;
         for (int i = 0; i < 2; ++i) places.step[i].store(stored.step[i]);
         places.depth.store(stored.depth);
         for (const LightGrid& grid : buffer_.grids) {
             const Ints cells = places.cells(grid);
             cells.store(stored.cell);
-            for (std::uint32_t todo = good; todo != 0;) {
+            for (std::uint32_t todo = grid.sparse ? good & occupied(cells) : good; todo != 0;) {
                 const int lane = std::countr_zero(todo);
                 const std::uint32_t lanes = todo & (cells == Ints(stored.cell[lane])).bits();
                 todo ^= lanes;
@@ -49,7 +57,7 @@ class ShadowLookup {
                     put_window(visit, places, lanes);
             }
         }
-        const std::uint32_t rough = block.waiting() & places.known & ~places.good;
+        const std::uint32_t rough = there & places.known & ~places.good;
         return HWY_UNLIKELY(rough != 0) ? good | add_rough(b, places, rough) : good;
     }
 
@@ -86,6 +94,10 @@ class ShadowLookup {
     static constexpr int kMaxVisits = 512;
     static constexpr int kMaxCandidates = 256;
 
+    HWY_INLINE std::uint32_t occupied(const Ints& cells) const {
+        const Ints words = Ints::gather(buffer_.occupied.data(), cells >> Ints(5));
+        return ((words >> (cells & Ints(31)) & Ints(1)) != Ints(0)).bits();
+    }
     HWY_INLINE Visit& add_visit(int b, std::uint32_t lanes, std::uint32_t cell) {
         if (HWY_UNLIKELY(visit_count_ == kMaxVisits)) run();
         Visit& visit = visits_[visit_count_++];
@@ -228,6 +240,7 @@ class ShadowLookup {
 
     const ShadowContext& context_;
     const LightBuffer& buffer_;
+    const WantedDepths* counted_;  // null: the lists are for all points that are asked for
     ShadowBlock* blocks_;
     int visit_count_ = 0;
     int candidate_count_ = 0;

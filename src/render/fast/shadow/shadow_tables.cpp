@@ -47,7 +47,7 @@ ShadowTables::ShadowTables(const FastScene& scene, InstructionSet isa, int threa
 }
 
 ShadowTables::ShadowTables(const FastScene& scene, InstructionSet isa, int threads,
-                           const std::vector<std::optional<WantedDepths>>& wanted)
+                           std::vector<std::optional<WantedDepths>> wanted)
     : scene_(scene), isa_(isa), threads_(threads), dense_(rounded_up(scene.frame().dense)) {
     make_tables();
     for_each_quadric_part(scene, threads, [&](QuadricSpan some) { take_quadrics(some); });
@@ -55,10 +55,11 @@ ShadowTables::ShadowTables(const FastScene& scene, InstructionSet isa, int threa
         ShadowTable& table = tables_[light];
         if (!scene_.scene().lights[light].casts_shadow) continue;
         forget_outside(table);
-        if (wanted[light]) list_wanted(table, light, *wanted[light]);
+        table.wanted = std::move(wanted[light]);
+        if (table.wanted) list_wanted(table, light);
     }
     for_each_index(threads, tables_.size(), [&](std::size_t light, int) {
-        if (!tables_[light].complete) fill_buffer(tables_[light], *wanted[light]);
+        if (!tables_[light].complete) fill_buffer(tables_[light]);
     });
     for (std::size_t light = 0; light < tables_.size(); ++light) {
         ShadowTable& table = tables_[light];
@@ -93,8 +94,8 @@ void ShadowTables::list_all(ShadowTable& table, std::size_t light) {
     std::fill(table.hides.begin(), table.hides.end(), std::uint8_t{0});
 }
 
-void ShadowTables::list_wanted(ShadowTable& table, std::size_t light, const WantedDepths& wanted) {
-    table.slots = wanted_items(items(), wanted, isa_, threads_);
+void ShadowTables::list_wanted(ShadowTable& table, std::size_t light) {
+    table.slots = wanted_items(items(), *table.wanted, isa_, threads_);
     table.complete = false;
     LightItems listed = items();
     listed.slots = &table.slots;
@@ -106,15 +107,16 @@ void ShadowTables::list_wanted(ShadowTable& table, std::size_t light, const Want
                    [&](const TriangleChunk& chunk) { make_planes(table, light, chunk); });
 }
 
-void ShadowTables::fill_buffer(ShadowTable& table, const WantedDepths& wanted) const {
+void ShadowTables::fill_buffer(ShadowTable& table) const {
     LightItems listed = items();
     listed.slots = &table.slots;
     listed.hides = table.hides.data();
     table.buffer = LightBuffer(table.light, listed, isa_);
-    table.buffer.map.most_moved = wanted.map().most_moved;
+    table.buffer.map.most_moved = table.wanted->map().most_moved;
     if (table.buffer.usable()) return;
     // Walks of the octree ask for all.
     table.complete = true;
+    table.wanted.reset();
     table.slots = {};
 }
 
@@ -209,12 +211,17 @@ LightSide ShadowTables::side(const LightPoint& light, const Quadric& shape,
     return blind ? LightSide::kBlind : LightSide::kInside;
 }
 
+bool ShadowTables::complete() const {
+    return std::none_of(tables_.begin(), tables_.end(),
+                        [](const ShadowTable& table) { return table.wanted.has_value(); });
+}
+
 std::size_t ShadowTables::memory_bytes() const {
     std::size_t bytes = quadrics_.size() * sizeof(Quadric);
     for (const ShadowTable& table : tables_)
         bytes += table.slots.size() * sizeof(Slot) + table.planes.size() * sizeof(ShadowPlanes) +
                  table.hides.size() + table.quadric_sides.size() * sizeof(LightSide) +
-                 table.buffer.memory_bytes();
+                 table.buffer.memory_bytes() + (table.wanted ? table.wanted->memory_bytes() : 0);
     return bytes;
 }
 

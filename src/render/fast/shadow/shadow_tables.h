@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "fast/light/light_buffer.h"
@@ -33,12 +34,13 @@ struct ShadowTable {
     Slot slot(Slot place) const { return complete ? place : slots[place]; }
 
     LightPoint light;
-    bool complete = true;            ///< all items
-    BigVector<Slot> slots;           ///< by place, ascending; unless complete
-    Slot triangles = 0;              ///< the places of triangles end here
-    BigVector<ShadowPlanes> planes;  ///< by place
-    BigVector<std::uint8_t> hides;   ///< by place: which triangles may hide something, 8 in a byte;
-                                     ///< the planes of others are not there
+    bool complete = true;                ///< all items
+    BigVector<Slot> slots;               ///< by place, ascending; unless complete
+    std::optional<WantedDepths> wanted;  ///< before whose points these may stand
+    Slot triangles = 0;                  ///< the places of triangles end here
+    BigVector<ShadowPlanes> planes;      ///< by place
+    BigVector<std::uint8_t> hides;  ///< by place: which triangles may hide something, 8 in a byte;
+                                    ///< the planes of others are not there
     BigVector<LightSide> quadric_sides;  ///< of slots from triangle_end on; empty: all outside
     LightBuffer buffer;
 };
@@ -50,7 +52,7 @@ class ShadowTables {
     ShadowTables(const FastScene& scene, InstructionSet isa, int threads = 1);
     /// Of what may stand before the wanted points of each light; of all where these are not known.
     ShadowTables(const FastScene& scene, InstructionSet isa, int threads,
-                 const std::vector<std::optional<WantedDepths>>& wanted);
+                 std::vector<std::optional<WantedDepths>> wanted);
 
     /// For fill_tables(); by several threads at a time.
     void take(const TriangleChunk& chunk);
@@ -63,6 +65,8 @@ class ShadowTables {
     const ShadowTable& table(std::size_t light) const { return tables_[light]; }
     const Quadric& quadric(Slot slot) const { return quadrics_[slot - scene_.triangle_end()]; }
     bool has_rounds() const { return !quadrics_.empty(); }
+    /// Whether points that were not wanted can be looked up, too.
+    bool complete() const;
 
     /// Bounds |n.P + w - the true function at SurfacePoint::point|, evaluated in float, but for
     /// what P's own error (on each axis) and kPlaneError times |P| or `dense`, whichever is larger,
@@ -78,8 +82,8 @@ class ShadowTables {
   private:
     void make_tables();
     void list_all(ShadowTable& table, std::size_t light);
-    void list_wanted(ShadowTable& table, std::size_t light, const WantedDepths& wanted);
-    void fill_buffer(ShadowTable& table, const WantedDepths& wanted) const;
+    void list_wanted(ShadowTable& table, std::size_t light);
+    void fill_buffer(ShadowTable& table) const;
     LightItems items() const { return {scene_, quadrics_, quadric_touch_}; }
     void make_planes(ShadowTable& table, std::size_t light, const TriangleChunk& chunk) const;
     static void forget_outside(ShadowTable& table);
