@@ -25,18 +25,21 @@ import tempfile
 import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-NEAR_BOUNDS = ("*Bounds.*:VectorMath.*:LightBuffer.*:OctantTests.*:SegmentWalk.*:PairRoots.*:ShadowPlanes.*:"
-               "FastBoxes.*:WantedItems.*:TriangleChunkTest.*")
-PICTURES = "Fast*:*FastShadows*:*FastFile*:SingleRays.*:BackFaces.*-FastBoxes.*"
+# What asks for the bounds of a folder of the fast room.
+NEAR = {"camera": "CameraBounds.*:FastBoxes.*", "primary": "CameraBounds.*:FastBoxes.*",
+        "light": "LightBounds.*:LightBuffer.*:WantedItems.*:ShadowPlanes.*",
+        "rays": "LeafBounds.*:PairRoots.*:SingleRays.*", "scene": "OctantTests.*:FastScene.*:TriangleChunkTest.*",
+        "shading": "ShadingBounds.*:ColorBounds.*:VectorMath.*:FastShading.*",
+        "shadow": "SegmentBounds.*:LightBounds.*:ShadowPlanes.*:*FastShadows*:BackFaces.*",
+        "tile": "SegmentBounds.*:*FastShadows*:FastBoxes.*", "simd": "*Bounds.*:VectorMath.*", "frame": "*FastShadows*"}
 ROOMS = {  # the files, and the test programs that run one after the other
     "geometry": (["src/geometry/*.cpp"], [["geometry_tests", "--gtest_filter=-Placements/*"],
                                           ["geometry_tests", "--gtest_filter=Placements/*"], ["property_tests"]]),
     "octree": (["src/octree/*.cpp"], [["octree_tests"], ["property_tests"]]),
     "fast": (["src/render/fast/scene/*.cpp", "src/render/fast/primary/*.cpp", "src/render/fast/shadow/*.cpp",
               "src/render/fast/tile/*.cpp"], [["render_tests"], ["fuzz_tests"]]),
-    # First what asks for bounds, then what compares pictures and rays.
     "bounds": (["src/render/fast/**/*.cpp", "src/render/fast/**/*.h"],
-               [["render_tests", f"--gtest_filter={NEAR_BOUNDS}"], ["render_tests", f"--gtest_filter={PICTURES}"]]),
+               [["render_tests", "--gtest_filter={near}"], ["render_tests", "--gtest_filter=Fast.*:FastFaults.*"]]),
 }
 ONLY = {"bounds": re.compile(r"Roundoff|gamma\(|Underflow|[eE]rror|[sS]lack|margin|kSmallest")}
 SWAPS = {" < ": " <= ", " <= ": " < ", " > ": " >= ", " >= ": " > ", " == ": " != ", " != ": " == ", " && ": " || ",
@@ -123,7 +126,8 @@ class Tester:
                 if linked != program[0]:
                     self.link(shlex.split(link), objects, folder, path)
                     linked = program[0]
-                run = subprocess.run([f"{folder}/tests", "--gtest_fail_fast", "--gtest_brief=1", *program[1:]],
+                filters = [word.replace("{near}", NEAR.get(path.parent.name, "")) for word in program[1:]]
+                run = subprocess.run([f"{folder}/tests", "--gtest_fail_fast", "--gtest_brief=1", *filters],
                                      cwd=folder, capture_output=True, text=True, preexec_fn=lambda: resource.setrlimit(
                                          resource.RLIMIT_CPU, (self.seconds, self.seconds)))
                 if run.returncode in (-signal.SIGKILL, -signal.SIGXCPU):

@@ -17,6 +17,7 @@ struct ConicAnswers {
     static constexpr int kLanes = 16;
     float discriminant[kLanes], toward[kLanes], low[kLanes], high[kLanes];
     float error, toward_error;
+    std::uint32_t met;  // blocks
 };
 #endif
 }  // namespace nuvo
@@ -46,12 +47,14 @@ void ask_conic(const CameraRays& camera, int tile_x, int tile_y, const CameraSph
     hits.high.store(out.high);
     out.error = conics.error(0);
     out.toward_error = conics.toward_error(0);
+    out.met = conics.met(0, 0xffff);
 }
 
 }  // namespace nuvo::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
+#include <bit>
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 
@@ -319,12 +322,40 @@ TEST(CameraBounds, HoldTheOrderOfTwoPlanes) {
     EXPECT_GT(sure, 15000);
 }
 
+struct MetBlocks {
+    int truly = 0;
+    int found = 0;
+};
+
+// Whoever has a pixel whose ray meets the sphere.
+void judge_blocks(const View& view, const CameraRays& camera, int tile_x, int tile_y,
+                  const RealVector& f, const Real& r, std::uint32_t met, MetBlocks& blocks) {
+    using Long = Vec3<long double>;
+    const auto rounded = [](const RealVector& v) {
+        return Long(static_cast<long double>(v.x), static_cast<long double>(v.y),
+                    static_cast<long double>(v.z));
+    };
+    const Long from = rounded(f);
+    const auto radius = static_cast<long double>(r);
+    std::uint32_t truly = 0;
+    for (int lane = 0; lane < kTileLanes; ++lane) {
+        const Long d = rounded(view.direction(camera.center_x(tile_x + lane_x(lane)),
+                                              camera.center_y(tile_y + lane_y(lane))));
+        const Long across = cross(from, d);
+        if (dot(d, d) * radius * radius >= dot(across, across)) truly |= 1U << lane / kBlockLanes;
+    }
+    ASSERT_EQ(truly & ~met, 0U);
+    blocks.truly += std::popcount(truly);
+    blocks.found += std::popcount(met);
+}
+
 TEST(CameraBounds, HoldTheFunctionsOfSpheres) {
     for (const InstructionSet isa : supported_instruction_sets()) {
         const auto ask = NUVO_FOR_ISA(isa, ask_conic);
         std::mt19937_64 random(kSeed + 3);
         int judged = 0;
         int hit = 0;
+        MetBlocks blocks;
         double widest = 0;  // of 1 / t, relative, where the sphere is large in the picture
         for (int round = 0; round < 800; ++round) {
             View view(random_camera(random), 1);
@@ -359,6 +390,14 @@ TEST(CameraBounds, HoldTheFunctionsOfSpheres) {
             const Real scale = fast.frame().scale;
             const RealVector f = (RealVector(eye) - RealVector(center)) * scale;
             const Real r = Real(radius) * scale;
+            const Real gap = sqrt(dot(f, f)) - r;
+            if (gap > 0) {
+                ASSERT_GE(Real(sphere.nearest) * gap, 1) << "round " << round;
+                if (kind == 0) {
+                    EXPECT_LT(Real(sphere.nearest) * gap, 1 + 0x1p-20);
+                }
+            }
+            judge_blocks(view, camera, tile_x, tile_y, f, r, found.met, blocks);
             for (int lane = 0; lane < ConicAnswers::kLanes; ++lane) {
                 const Real x = Real(camera.center_x(tile_x + lane_x(lane)));
                 const Real y = Real(camera.center_y(tile_y + lane_y(lane)));
@@ -385,6 +424,7 @@ TEST(CameraBounds, HoldTheFunctionsOfSpheres) {
         EXPECT_GT(judged, 700);
         EXPECT_GT(hit, 6000);
         EXPECT_LT(widest, 0x1p-16);
+        EXPECT_LT(blocks.found, blocks.truly * 1.2) << blocks.truly;
     }
 }
 

@@ -215,6 +215,10 @@ TEST(ColorBounds, HoldBytesAtTies) {
             TriangleMesh mesh;
             mesh.positions = {{-9, -9, 0}, {9, -9, 0}, {0, 18, 0}};
             mesh.triangles = {{0, 1, 2}};
+            if (round % 5 == 0) {  // in place of the material's
+                mesh.colors.assign(3, color(0.3, 1));
+                material.diffuse_color = mesh.colors[0];
+            }
             Object object;
             object.shape = mesh;
             scene.objects = {object};

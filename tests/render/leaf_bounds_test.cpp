@@ -362,7 +362,7 @@ TEST(LeafBounds, HoldTheSlabsOfRays) {
     std::mt19937_64 random(kSeed + 3);
     for (const InstructionSet isa : supported_instruction_sets()) {
         const auto prepare = NUVO_FOR_ISA(isa, prepare_rays);
-        double share[2] = {};
+        double share[2] = {}, point_share[2] = {};
         int judged = 0;
         for (int round = 0; round < 1500; ++round) {
             const LocalFrame frame{uniform_point(random, 100), 0.25, 0.25};
@@ -382,6 +382,20 @@ TEST(LeafBounds, HoldTheSlabsOfRays) {
                 if ((made.valid >> i & 1) == 0) continue;
                 const LocalRay local(rays[i], frame, reach);
                 const double advance = local.advance;
+                // A point of the ray near the boxes, as a leaf finds it.
+                const float at = static_cast<float>((1 + uniform(random, 0, 1)) * (is_far ? 2 : 1) *
+                                                    uniform(random, 0, 1));
+                for (int axis = 0; axis < 3; ++axis) {
+                    const double step = made.lanes.step[i][axis];
+                    const double p = made.lanes.origin[i][axis] + static_cast<double>(at) * step;
+                    const Real there = (Real(rays[i].origin[axis]) - Real(frame.center[axis])) *
+                                           Real(frame.scale) +
+                                       (Real(at) + Real(advance)) * Real(step);
+                    const Real error(made.lanes.far_add[i][3]);
+                    ASSERT_LE(abs(Real(p) - there), error)
+                        << "seed " << kSeed + 3 << ", round " << round;
+                    attain(point_share[is_far], abs(Real(p) - there), error);
+                }
                 for (int axis = 0; axis < 3; ++axis) {
                     const float plane = random() % 2 != 0
                                             ? std::copysign(reach, made.lanes.inverse[i][axis])
@@ -407,6 +421,8 @@ TEST(LeafBounds, HoldTheSlabsOfRays) {
         EXPECT_GT(judged, 50'000);
         EXPECT_GT(share[0], 0.14);
         EXPECT_GT(share[1], 0.15);
+        EXPECT_GT(point_share[0], 0.03);
+        EXPECT_GT(point_share[1], 0.06);
     }
 }
 
