@@ -27,8 +27,8 @@ int sign_over(const Vector3& n, const Vector3& low, const Vector3& high) {
     for (int axis = 0; axis < 3; ++axis) {
         const double a = n[axis] * low[axis];
         const double b = n[axis] * high[axis];
-        least += std::fmin(a, b);
-        most += std::fmax(a, b);
+        least += std::min(a, b);
+        most += std::max(a, b);
     }
     return least > slack ? 1 : most < -slack ? -1 : 0;
 }

@@ -39,8 +39,10 @@ class Slabs {
             const double s = low * inverse_[axis];
             const double t = high * inverse_[axis];
             // What is no number, for it has overflowed, bounds nothing.
-            first = std::fmax(first, lowered(s < t ? s : t));
-            last = std::fmin(last, raised(s < t ? t : s));
+            const double enters = lowered(s < t ? s : t);
+            const double leaves = raised(s < t ? t : s);
+            if (enters > first) first = enters;
+            if (leaves < last) last = leaves;
         }
         return first > last;
     }

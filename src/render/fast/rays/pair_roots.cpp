@@ -100,8 +100,8 @@ void find_triangle_roots(PairRoots& roots, std::size_t count) {
         const Doubles8 height = normal.dot(toward);
         const Doubles8 slope = normal.dot(d);
         const Doubles8 t = height / slope;
-        const PairMask sure = (abs(height) >= normal.error(toward, 1 / kShare)) &
-                              (abs(slope) >= normal.error(d, 1 / kShare));
+        const PairMask sure = (abs(height) > normal.error(toward, 1 / kShare)) &
+                              (abs(slope) > normal.error(d, 1 / kShare));
         const PairMask known =
             sure & (t > Doubles8(detail::kSmallestRoot)) & (t < Doubles8(detail::kLargestRoot));
         t.store(roots.t + i);

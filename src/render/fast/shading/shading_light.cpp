@@ -62,8 +62,8 @@ class LightSampler {
             const RayMask mask = RayMask::from_bits(smooth);
             lit = {select(mask, other.value, lit.value), select(mask, other.error, lit.error)};
         }
-        // NaN is wanted.
-        RayMask wanted = ~(lit.value <= -lit.error);
+        // NaN is wanted; the sum has its sign exactly, and is NaN where both are infinite.
+        RayMask wanted = ~(lit.value + lit.error <= Floats(0.0F));
         lit.value = max(lit.value, Floats(0.0F));
         if (light_.ambient > 0 && tables_.any_ambient) add_ambient(first, lit, wanted);
         Factor factor;

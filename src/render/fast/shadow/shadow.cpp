@@ -108,6 +108,7 @@ class ShadowTracer {
         bool blocked = fallback_.blocks(ray, lit);
         mailbox.seen(lit);
         const auto leaf = [&](const std::uint32_t* items, std::uint32_t count) {
+            if (!fallback_.may_visit()) return true;
             int near = 0;
             for (std::uint32_t i = 0; i < count; ++i) {
                 if (!context_.job.walk_planes.may_hide(light_, items[i]) ||

@@ -58,7 +58,9 @@ class ExactFallback {
     bool blocks_any(const Kernel::Shadow& ray, std::span<const Slot> leaf) const;
 
     /// How many tests of a primitive may be asked for in all; not called: any number.
-    void allow(std::uint64_t tests) { allowed_ = tests; }
+    void allow(std::uint64_t tests) { allowed_ = kLeavesOfTest * tests; }
+    /// A walk for a single ray came to one more leaf; false: it may end.
+    bool may_visit() const { return may_spend(1); }
     /// More were asked for, then or once before: the last answers may have been wrong.
     bool is_exhausted() const { return is_exhausted_; }
 
@@ -97,13 +99,17 @@ class ExactFallback {
     const FastScene& scene_;
     const CameraRays& camera_;
     Kernel kernel_;
-    bool may_test() const {
-        if (++tests_ > allowed_) is_exhausted_ = true;
+    // What counts is leaves: so many cost as much as a test.
+    static constexpr std::uint64_t kLeavesOfTest = 32;
+    bool may_test() const { return may_spend(kLeavesOfTest); }
+    bool may_spend(std::uint64_t leaves) const {
+        spent_ += leaves;
+        if (spent_ > allowed_) is_exhausted_ = true;
         return !is_exhausted_;
     }
 
     std::uint64_t allowed_ = std::numeric_limits<std::uint64_t>::max();
-    mutable std::uint64_t tests_ = 0;
+    mutable std::uint64_t spent_ = 0;
     mutable bool is_exhausted_ = false;
     mutable std::unordered_map<const Slot*, LargeLeaf> large_leaves_;  // by their first items
 };
