@@ -229,7 +229,7 @@ TEST(LeafBounds, HoldTheDepthOfTriangles) {
     for (const InstructionSet isa : supported_instruction_sets()) {
         const auto ask = NUVO_FOR_ISA(isa, ask_triangles);
         std::mt19937_64 random(kSeed + 1);
-        int judged = 0, sure = 0;
+        int judged = 0, sure = 0, narrow = 0;
         double share = 0;
         for (int round = 0; round < 8'000; ++round) {
             GridRay ray(random);
@@ -264,11 +264,13 @@ TEST(LeafBounds, HoldTheDepthOfTriangles) {
             ASSERT_LE(Real(found.low[0]), s) << "seed " << kSeed + 1 << ", round " << round;
             ASSERT_GE(Real(found.high[0]), s) << "seed " << kSeed + 1 << ", round " << round;
             if (!std::isfinite(found.high[0])) continue;
+            narrow += found.high[0] - found.low[0] < 0x1p-8F * found.high[0];
             const Real at_middle = (Real(found.low[0]) + Real(found.high[0])) / 2;
             attain(share, abs(s - at_middle), (Real(found.high[0]) - Real(found.low[0])) / 2);
         }
         EXPECT_GT(judged, 4000);
         EXPECT_GT(sure, 3200);
+        EXPECT_GT(narrow, 2000);
         EXPECT_GT(share, 0.11);
     }
 }
@@ -277,7 +279,7 @@ TEST(LeafBounds, HoldTheHitsOfSpheres) {
     for (const InstructionSet isa : supported_instruction_sets()) {
         const auto ask = NUVO_FOR_ISA(isa, ask_spheres);
         std::mt19937_64 random(kSeed + 2);
-        int sure = 0, missed = 0, open = 0;
+        int sure = 0, missed = 0, open = 0, narrow = 0;
         double share = 0;
         for (int round = 0; round < 20'000; ++round) {
             const Point3 center = uniform_point(random, 1);
@@ -348,10 +350,12 @@ TEST(LeafBounds, HoldTheHitsOfSpheres) {
             ASSERT_LE(Real(found.low[0]), *s) << where;
             ASSERT_GE(Real(found.high[0]), *s) << where;
             if (!is_sure) continue;
+            narrow += found.high[0] - found.low[0] < 0x1p-12F * found.high[0];
             const Real middle = (Real(found.low[0]) + Real(found.high[0])) / 2;
             attain(share, abs(*s - middle), (Real(found.high[0]) - Real(found.low[0])) / 2);
         }
         EXPECT_GT(sure, 6000);
+        EXPECT_GT(narrow, 2000);
         EXPECT_GT(missed, 5000) << open;
         EXPECT_GT(share, 0.1);
     }
