@@ -30,7 +30,7 @@ ChannelDifferences differences(const Rgb8& a, const Rgb8& b) {
 }
 
 std::uint8_t shown(int difference, int largest) {
-    if (difference == 0) return 0;
+    if (difference == 0 || largest == 0) return 0;
     const int span = kLargestChannel - kFaintest;
     return static_cast<std::uint8_t>(kFaintest + (2 * span * difference + largest) / (2 * largest));
 }

@@ -204,11 +204,11 @@ NpyArray parse_npy(std::string_view bytes) {
 }
 
 std::vector<double> npy_doubles(const NpyArray& array) {
-    const ValueAt value = item_bytes(array.type) == 0 ? nullptr : reader_of(array.type);
+    const std::size_t each = item_bytes(array.type);
+    const ValueAt value = each == 0 ? nullptr : reader_of(array.type);
     if (value == nullptr)
         throw NpyError("is of type " + array.type.substr(0, 40) +
                        ", not of float64, float32 or integers of up to 32 bits");
-    const std::size_t each = item_bytes(array.type);
     const bool is_swapped = array.type[1] == '>';
     std::vector<double> values(array.data.size() / each);
     if (!is_swapped && value == static_cast<ValueAt>(value_at<double>)) {

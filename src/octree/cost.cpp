@@ -10,7 +10,8 @@ double sah(const SahTotals& totals, double root_area, const SahCosts& costs) {
 
 SahCosts ThesisCosts::operator()(std::size_t leaves) const {
     const auto s = static_cast<float>(shapes);
-    return {static_cast<float>(leaves * leaves), static_cast<float>(objects / leaves),
+    const std::size_t share = objects / leaves;  // a whole number, as published
+    return {static_cast<float>(leaves * leaves), static_cast<float>(share),
             static_cast<float>(lights) * s * s};
 }
 
