@@ -41,7 +41,7 @@ class CountedPoints {
 
     /// Calls use(cell, depth, lane) for all cells of the other lanes.
     template <typename Use>
-    HWY_NOINLINE void for_each_of_spread(Use&& use) const {
+    HWY_INLINE void for_each_of_spread(Use&& use) const {
         alignas(64) std::int32_t low[2][kBlockLanes];
         alignas(64) std::int32_t high[2][kBlockLanes];
         alignas(64) std::int32_t rows[kBlockLanes];
@@ -74,8 +74,8 @@ class CountedPoints {
 
 /// Which of `lanes` lie in no cell deeper than a point that was counted there: items that may hide
 /// them are wanted.
-HWY_INLINE std::uint32_t covered(const WantedDepths& depths, const Points& points,
-                                 const Floats& error, std::uint32_t lanes) {
+HWY_NOINLINE inline std::uint32_t covered(const WantedDepths& depths, const Points& points,
+                                          const Floats& error, std::uint32_t lanes) {
     const CountedPoints counted(depths, points, error, lanes);
     if (counted.lanes == 0) return 0;
     const float* const cells = depths.cells();

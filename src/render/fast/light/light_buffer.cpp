@@ -256,7 +256,7 @@ class LightBufferMaker {
         if (out_.grids.empty()) out_.grids.push_back(coarsest);  // nothing hides anything
         for (LightGrid& grid : out_.grids) find_empty_cells(grid);
     }
-    // Points look at no list in empty cells; that costs more than it saves where few are empty.
+    // Points in several cells look at no list of empty ones; that does not pay where few are empty.
     void find_empty_cells(LightGrid& grid) {
         constexpr std::uint32_t kCells = 32;  // a word
         out_.occupied.resize(cells_ / kCells + 1);

@@ -97,7 +97,7 @@ std::optional<WantedDepths> WantedDepths::of(const FastScene& scene, const Light
         kMostCells * std::min(extent[0], extent[1]) / static_cast<float>(out.cells_a_side_);
     std::size_t size = 0;
     for (int side = out.cells_a_side_; side > 0; side /= 2) {
-        out.level_starts_.push_back(size);
+        out.level_starts_.push_back(static_cast<std::int32_t>(size));
         size += static_cast<std::size_t>(map.faces() * side * side);
     }
     out.cells_.resize(size);

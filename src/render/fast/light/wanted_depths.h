@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <bit>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -38,27 +37,13 @@ class WantedDepths {
     /// Makes the pyramid. After all else.
     void finish();
 
-    /// Bounds the depths of points between these steps of a face from above.
-    float deepest(int face, const std::int32_t (&low)[2], const std::int32_t (&high)[2]) const {
-        const auto span = static_cast<std::uint32_t>(std::max(high[0] - low[0], high[1] - low[1]));
-        const int level = std::max(0, static_cast<int>(std::bit_width(span)) - step_bits_);
-        const int shift = step_bits_ + level;
-        const int side = cells_a_side_ >> level;
-        const float* const cells =
-            cells_.data() + level_starts_[static_cast<std::size_t>(level)] + face * side * side;
-        float most = -std::numeric_limits<float>::infinity();
-        for (int y = low[1] >> shift; y <= high[1] >> shift; ++y)
-            for (int x = low[0] >> shift; x <= high[0] >> shift; ++x)
-                most = std::max(most, cells[y * side + x]);
-        return most;
-    }
-
     std::size_t memory_bytes() const { return cells_.size() * sizeof(float); }
 
-    // The finest cells, for the kernels.
-    const float* cells() const { return cells_.data(); }  ///< [face][v][u]
+    // For the kernels: the finest cells [face][v][u], then those of half as many a side, and so on.
+    const float* cells() const { return cells_.data(); }
     int cells_a_side() const { return cells_a_side_; }
     int step_bits() const { return step_bits_; }
+    const std::int32_t* level_starts() const { return level_starts_.data(); }
 
   private:
     WantedDepths(const LightPoint& light, InstructionSet isa) : light_(light), isa_(isa) {}
@@ -70,7 +55,7 @@ class WantedDepths {
     int step_bits_ = 0;     // a cell is this many steps wide, as a power of two
     float width_ = 0;       // of a cell; inside at a depth of 1
     BigVector<float> cells_;
-    std::vector<std::size_t> level_starts_;  // from fine to coarse
+    std::vector<std::int32_t> level_starts_;  // from fine to coarse
 };
 
 }  // namespace nuvo

@@ -34,26 +34,36 @@ class WantedRanges {
         std::uint32_t found = 0;
         ranges_.for_each_face(
             items, there, [&](int face, const LightRanges& ranges, std::uint32_t lanes) HWY_ATTR {
-                alignas(64) std::int32_t low[2][16];
-                alignas(64) std::int32_t high[2][16];
-                alignas(64) float near[16];
-                for (int i = 0; i < 2; ++i) {
-                    integers_from(step_of(map_, i, ranges.low[i])).store(low[i]);
-                    integers_from(step_of(map_, i, ranges.high[i])).store(high[i]);
-                }
-                ranges.near.store(near);
-                for (lanes &= ~found; lanes != 0; lanes &= lanes - 1) {
-                    const int i = std::countr_zero(lanes);
-                    const float deepest =
-                        wanted_.deepest(face, {low[0][i], low[1][i]}, {high[0][i], high[1][i]});
-                    // Not so written that a NaN would leave it out.
-                    if (!(near[i] > deepest)) found |= 1U << i;
-                }
+                // Not so written that a NaN would leave it out.
+                found |= lanes & ~(ranges.near > deepest(face, ranges)).bits();
             });
         return found;
     }
 
   private:
+    // Bounds the depths of points within the ranges from above: by the four cells at their corners
+    // on the level where a cell is no smaller than they are.
+    HWY_INLINE Floats deepest(int face, const LightRanges& ranges) const {
+        constexpr int kExponentOfHalf = 126;
+        Ints low[2];
+        Ints high[2];
+        for (int i = 0; i < 2; ++i) {
+            low[i] = integers_from(step_of(map_, i, ranges.low[i]));
+            high[i] = integers_from(step_of(map_, i, ranges.high[i]));
+        }
+        const Ints span = max(high[0] - low[0], high[1] - low[1]);
+        const Ints bit_width = shift_right<23>(bits_of(floats_from(span))) - Ints(kExponentOfHalf);
+        const Ints level = max(bit_width - Ints(wanted_.step_bits()), Ints(0));
+        const Ints shift = level + Ints(wanted_.step_bits());
+        const Ints side = Ints(wanted_.cells_a_side()) >> level;
+        const Ints start = Ints::gather(wanted_.level_starts(), level) + Ints(face) * side * side;
+        const auto at = [&](const Ints& x, const Ints& y) HWY_ATTR {
+            return Floats::gather(wanted_.cells(), start + (y >> shift) * side + (x >> shift));
+        };
+        return max(max(at(low[0], low[1]), at(high[0], low[1])),
+                   max(at(low[0], high[1]), at(high[0], high[1])));
+    }
+
     const WantedDepths& wanted_;
     const LightMap& map_;
     ItemRanges ranges_;

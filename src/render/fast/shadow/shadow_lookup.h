@@ -46,10 +46,17 @@ class ShadowLookup {
         for (const LightGrid& grid : buffer_.grids) {
             const Ints cells = places.cells(grid);
             cells.store(stored.cell);
-            for (std::uint32_t todo = grid.sparse ? good & occupied(cells) : good; todo != 0;) {
+            for (std::uint32_t todo = good; todo != 0;) {
                 const int lane = std::countr_zero(todo);
-                const std::uint32_t lanes = todo & (cells == Ints(stored.cell[lane])).bits();
+                std::uint32_t lanes = todo & (cells == Ints(stored.cell[lane])).bits();
                 todo ^= lanes;
+                if (grid.sparse && lanes != good && (lanes | todo) == good) {
+                    // The first of several cells.
+                    const std::uint32_t rest = occupied(cells);
+                    todo &= rest;
+                    lanes &= rest;
+                    if (lanes == 0) continue;
+                }
                 Visit& visit = add_visit(b, lanes, static_cast<std::uint32_t>(stored.cell[lane]));
                 if ((lanes & (lanes - 1)) == 0)
                     put_window(visit, stored, lane);
