@@ -4,7 +4,7 @@
 set -euo pipefail
 source "$(dirname -- "${BASH_SOURCE[0]}")/setup.sh"
 
-nuvo_install "${nuvo_packages[@]}" clang clang-format clang-tidy
+nuvo_install "${nuvo_packages[@]}" clang clang-format clang-tidy libclang-rt-dev
 cd "$nuvo_root"
 
 echo "format"

@@ -7,7 +7,7 @@ source "$(dirname -- "${BASH_SOURCE[0]}")/setup.sh"
 
 rooms=("$@")
 [ $# -gt 0 ] || rooms=(math geometry octree scene image render app property cli)
-nuvo_install "${nuvo_packages[@]}" clang llvm
+nuvo_install "${nuvo_packages[@]}" clang libclang-rt-dev llvm
 build=$nuvo_root/build/coverage
 nuvo_quietly cmake -S "$nuvo_root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=None \
     -DCMAKE_CXX_COMPILER=clang++ "-DCMAKE_CXX_FLAGS=-O1 -DNDEBUG -fprofile-instr-generate -fcoverage-mapping" \

@@ -32,7 +32,7 @@ scene_seconds=$seconds
     --seed="$seed" --jobs="$(nproc)" --results="$results" || status=1
 [ $bytes = yes ] || exit $status
 
-nuvo_install clang
+nuvo_install clang libclang-rt-dev # its sanitizers and libFuzzer
 nuvo_build fuzz fuzz_scene fuzz_rays fuzz_options
 for target in scene rays options; do
     log=$results/$target.log
