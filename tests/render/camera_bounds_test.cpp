@@ -177,6 +177,7 @@ struct TruePlanes {
 
 Camera random_camera(std::mt19937_64& random, int kind = 0) {
     Camera camera = camera_along(uniform_point(random, 1), uniform_point(random, 1));
+    if (random() % 3 == 0) camera.field_of_view_rad = uniform(random, 1, 2.9);
     if (kind == kTelescope) camera.field_of_view_rad = std::exp2(uniform(random, -36, -24));
     return camera;
 }

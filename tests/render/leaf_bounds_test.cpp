@@ -5,7 +5,7 @@
 #define HWY_TARGET_INCLUDE "render/leaf_bounds_test.cpp"
 #include <hwy/foreach_target.h>
 
-#include "fast/rays/ray_block.h"
+#include "fast/rays/ray_state.h"
 #include "fast/rays/single_ray_leaf.h"
 
 namespace nuvo {
@@ -20,10 +20,6 @@ struct LeafQuestion {
     WideLeafHead head;
     float entry;
     std::uint32_t front;
-};
-struct PreparedRays {
-    RayLanes lanes;
-    std::uint32_t valid;
 };
 #endif
 }  // namespace nuvo
@@ -46,12 +42,6 @@ void ask_spheres(const LeafQuestion& q, const float* values, LeafAnswers& out) {
     const RayAtLeaf ray(q.rays, 0, q.head, q.entry);
     put(test_spheres(ray, values, kLeafLanes, kLeafLanes, LeafMask::from_bits(q.front), 1.0F), out);
 }
-void prepare_rays(std::span<const Ray> rays, const LocalFrame& frame, float reach,
-                  PreparedRays& out) {
-    RayBlock block;
-    block.prepare(rays, frame, reach);
-    out = {block.lanes, block.valid};
-}
 
 }  // namespace nuvo::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -63,7 +53,7 @@ HWY_AFTER_NAMESPACE();
 #include "fast/simd/dispatch.h"
 #include "fast_cases.h"
 
-// Single rays at planes and in leaves against 60 digits: corners, centers and the ray as far off as
+// Single rays in leaves against 60 digits: corners, centers and the ray as far off as
 // they are said to be, to the side where that does most.
 namespace nuvo::testing {
 namespace {
@@ -358,75 +348,6 @@ TEST(LeafBounds, HoldTheHitsOfSpheres) {
         EXPECT_GT(narrow, 2000);
         EXPECT_GT(missed, 5000) << open;
         EXPECT_GT(share, 0.1);
-    }
-}
-
-// The planes x = c of boxes in the root, from wherever the ray starts.
-TEST(LeafBounds, HoldTheSlabsOfRays) {
-    std::mt19937_64 random(kSeed + 3);
-    for (const InstructionSet isa : supported_instruction_sets()) {
-        const auto prepare = NUVO_FOR_ISA(isa, prepare_rays);
-        double share[2] = {}, point_share[2] = {};
-        int judged = 0;
-        for (int round = 0; round < 1500; ++round) {
-            const LocalFrame frame{uniform_point(random, 100), 0.25, 0.25};
-            const float reach = 1;
-            const bool is_far = round % 2 != 0;
-            std::vector<Ray> rays;
-            for (std::size_t i = 0; i < RayLanes::kRays; ++i) {
-                const Point3 aim = frame.center + uniform_point(random, 4);
-                const double away =
-                    is_far ? std::exp2(uniform(random, 4, 44)) : uniform(random, 0, 8);
-                const Vector3 way = uniform_point(random, std::exp2(uniform(random, -20, 20)));
-                rays.push_back({aim - normalized(way) * away, way});
-            }
-            PreparedRays made;
-            prepare(rays, frame, reach, made);
-            for (std::size_t i = 0; i < RayLanes::kRays; ++i) {
-                if ((made.valid >> i & 1) == 0) continue;
-                const LocalRay local(rays[i], frame, reach);
-                const double advance = local.advance;
-                // A point of the ray near the boxes, as a leaf finds it.
-                const float at = static_cast<float>((1 + uniform(random, 0, 1)) * (is_far ? 2 : 1) *
-                                                    uniform(random, 0, 1));
-                for (int axis = 0; axis < 3; ++axis) {
-                    const double step = made.lanes.step[i][axis];
-                    const double p = made.lanes.origin[i][axis] + static_cast<double>(at) * step;
-                    const Real there = (Real(rays[i].origin[axis]) - Real(frame.center[axis])) *
-                                           Real(frame.scale) +
-                                       (Real(at) + Real(advance)) * Real(step);
-                    const Real error(made.lanes.far_add[i][3]);
-                    ASSERT_LE(abs(Real(p) - there), error)
-                        << "seed " << kSeed + 3 << ", round " << round;
-                    attain(point_share[is_far], abs(Real(p) - there), error);
-                }
-                for (int axis = 0; axis < 3; ++axis) {
-                    const float plane = random() % 2 != 0
-                                            ? std::copysign(reach, made.lanes.inverse[i][axis])
-                                            : static_cast<float>(uniform(random, -1, 1));
-                    const Real d = Real(rays[i].direction[axis]) * Real(frame.scale);
-                    if (d == 0) continue;
-                    const Real o =
-                        (Real(rays[i].origin[axis]) - Real(frame.center[axis])) * Real(frame.scale);
-                    const Real s = (Real(plane) - o) / d * Real(local.scale) - Real(advance);
-                    const float inverse = made.lanes.inverse[i][axis];
-                    const float near = made.lanes.near_add[i][axis];
-                    const float far = made.lanes.far_add[i][axis];
-                    for (const float low : {std::fma(plane, inverse, near), plane * inverse + near})
-                        ASSERT_LE(Real(low), s) << "seed " << kSeed + 3 << ", round " << round;
-                    for (const float high : {std::fma(plane, inverse, far), plane * inverse + far})
-                        ASSERT_GE(Real(high), s) << "seed " << kSeed + 3 << ", round " << round;
-                    ++judged;
-                    const Real middle = (Real(near) + Real(far)) / 2 + Real(plane) * Real(inverse);
-                    attain(share[is_far], abs(s - middle), (Real(far) - Real(near)) / 2);
-                }
-            }
-        }
-        EXPECT_GT(judged, 50'000);
-        EXPECT_GT(share[0], 0.14);
-        EXPECT_GT(share[1], 0.15);
-        EXPECT_GT(point_share[0], 0.03);
-        EXPECT_GT(point_share[1], 0.06);
     }
 }
 
