@@ -86,6 +86,9 @@ class Shown {
     std::uint32_t object_index(const Tile& tile, int lane) const {
         return fast_.source(tile.slot[lane]).object;
     }
+    double depth(const Point3& p) const {
+        return dot(fast_.frame().local(p) - camera_.origin, camera_.forward);
+    }
     Vector3 local(const Point3& p) const { return fast_.frame().local(p) - Point3{}; }
 
   private:
@@ -148,6 +151,9 @@ class Judge {
         for (int lane = 0; lane < kTileLanes; ++lane) {
             if (!is_told(tile, scratch, lane)) continue;
             const auto truth = shown.surface(tile, lane);
+            const double depth = shown.depth(truth.point);  // t: the view's part of rays is 1
+            ASSERT_LE(static_cast<double>(tile.near_low[lane]) * depth, 1 + 0x1p-40);
+            ASSERT_GE(static_cast<double>(tile.near_high[lane]) * depth, 1 - 0x1p-40);
             const bool curved =
                 !std::holds_alternative<TriangleMesh>(shown.object(tile, lane).shape);
             const bool by_normal = bit(scratch.smooth, lane);
