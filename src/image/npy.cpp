@@ -13,6 +13,15 @@ constexpr std::string_view kMagic = "\x93NUMPY";
 constexpr std::size_t kAlignment = 64;
 constexpr std::string_view kBlanks = " \t\n\r";
 
+/// What a file says, for a message of one line.
+std::string excerpt(std::string_view text) {
+    constexpr std::size_t kLongest = 40;
+    std::string out(text.substr(0, kLongest));
+    for (char& c : out)
+        if (static_cast<unsigned char>(c) < ' ') c = '?';
+    return out;
+}
+
 /// A reader of the header's dictionary, a literal of Python.
 class Literal {
   public:
@@ -103,8 +112,7 @@ NpyArray parse_header(std::string_view text) {
         } else if (key == "shape") {
             array.shape = literal.shape();
         } else {
-            throw NpyError("the header has an unknown key '" + std::string(key.substr(0, 40)) +
-                           "'");
+            throw NpyError("the header has an unknown key '" + excerpt(key) + "'");
         }
         if (!literal.take(',')) {
             literal.demand('}');
@@ -207,7 +215,7 @@ std::vector<double> npy_doubles(const NpyArray& array) {
     const std::size_t each = item_bytes(array.type);
     const ValueAt value = each == 0 ? nullptr : reader_of(array.type);
     if (value == nullptr)
-        throw NpyError("is of type " + array.type.substr(0, 40) +
+        throw NpyError("is of type " + excerpt(array.type) +
                        ", not of float64, float32 or integers of up to 32 bits");
     const bool is_swapped = array.type[1] == '>';
     std::vector<double> values(array.data.size() / each);
