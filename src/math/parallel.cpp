@@ -6,7 +6,6 @@
 #include <limits>
 #include <memory>
 #include <mutex>
-#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -148,10 +147,12 @@ class Team {
             const std::size_t wanted = std::min(static_cast<std::size_t>(others), most_);
             const SignalsBlocked blocked;  // handlers run on the main thread, which may hold them
             while (helpers_.size() < wanted) helpers_.push_back(std::make_unique<Helper>());
-        } catch (const std::system_error&) {
-            // The system has no more threads. Half of those that there are do the work, and leave
-            // the other half's memory to it.
-            most_ = helpers_.size() / 2;
+        } catch (const std::exception&) {
+            // The system has no more threads (std::system_error), or no more addresses for their
+            // stacks, and then perhaps no memory to say so (std::bad_alloc). A thread that
+            // asks for memory takes up to eight times as many addresses again (64 MB of glibc's
+            // beside a stack of 8): so a few do the work, and leave the others' memory to it.
+            most_ = helpers_.size() / 16;
             helpers_.resize(most_);
         }
         const std::size_t used = std::min(helpers_.size(), static_cast<std::size_t>(others));
