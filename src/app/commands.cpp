@@ -122,7 +122,6 @@ std::string brute_force_forecast(const Scene& scene, const Options& options, Met
 // The passes of -compare, in their order.
 std::vector<std::string> compared_names(const Options& options) {
     std::vector<std::string> names;
-    names.reserve(std::size(kOctreeTypes) + 2);
     for (const auto& type : kOctreeTypes) names.emplace_back(type.name);
     if (options.profile.tracer == TracerChoice::kTiles) names.emplace_back("serial");
     if (options.compare_brute_force) names.emplace_back("brute force");

@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <numbers>
 
+#include "nuvo/math/one_line.h"
+
 namespace nuvo::app {
 namespace {
 
@@ -81,9 +83,7 @@ std::string camera_text(const Scene& scene) {
                        format(", field of view %.9g degrees\n", degrees(camera.field_of_view_rad));
     text += format("viewpoints %zu", scene.viewpoints.size());
     for (std::size_t i = 0; i < scene.viewpoints.size() && i < kShownViewpoints; ++i) {
-        text += i == 0 ? ": " : ", ";
-        for (const char c : scene.viewpoints[i])
-            text += static_cast<unsigned char>(c) < ' ' ? '?' : c;
+        text += (i == 0 ? ": " : ", ") + one_line(scene.viewpoints[i]);
     }
     return text + (scene.viewpoints.size() > kShownViewpoints ? ", ...\n" : "\n");
 }

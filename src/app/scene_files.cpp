@@ -8,6 +8,7 @@
 #include "nuvo/app/clocks.h"
 #include "nuvo/app/commands.h"
 #include "nuvo/image/file_writer.h"
+#include "nuvo/math/one_line.h"
 #include "nuvo/scene/framing.h"
 #include "text.h"
 
@@ -21,12 +22,6 @@ bool is_same_file(const fs::path& a, const fs::path& b) {
     std::error_code error;
     if (fs::equivalent(a, b, error) && !error) return is_regular(a);
     return a.lexically_normal() == b.lexically_normal() && !fs::exists(a, error);
-}
-
-std::string one_line(std::string text) {
-    for (char& c : text)
-        if (static_cast<unsigned char>(c) < ' ') c = '?';
-    return text;
 }
 
 const char* fault_of(Framing framing) {

@@ -6,6 +6,10 @@
 /// The last stage: the definitions, written in exact arithmetic. Internal to the predicates.
 namespace nuvo::detail {
 
+inline bool is_corner(const Point3& p, const Triangle& t) {
+    return p == t.a || p == t.b || p == t.c;
+}
+
 inline ExactVector exact_direction(const ExactRay& ray) {
     return ExactVector(ray.direction()) + ExactVector(ray.tail());
 }

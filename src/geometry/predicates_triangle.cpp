@@ -174,8 +174,7 @@ bool ends_in_plane(const ExactRay& way, double end, const Triangle& t, StageCoun
                                                      const Triangle& t, EdgeSigns signs,
                                                      StageCounts& counts) {
     // A ray from a corner meets the triangle there, at t = 0, or lies in its plane.
-    const Point3& o = ray.origin();
-    if (o == t.a || o == t.b || o == t.c) return LineTest::kMisses;
+    if (is_corner(ray.origin(), t)) return LineTest::kMisses;
     const Point3 shared = shared_point(ray, end);
     const bool untailed = ray.tail() == Vector3{0, 0, 0};
     if (const EdgePlanes* known = counts.edges.known_through(t, shared))

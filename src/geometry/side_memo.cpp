@@ -43,7 +43,7 @@ int SideMemo::exact_side(const Triangle& t, const Vector3& p, bool far, std::uin
 }
 
 int SideMemo::side(const Triangle& triangle, const Point3& p, std::uint64_t& exact) {
-    if (p == triangle.a || p == triangle.b || p == triangle.c) return 0;
+    if (detail::is_corner(p, triangle)) return 0;
     if (const std::optional<int> sign = sure_side(triangle, p, false)) return *sign;
     return exact_side(triangle, p, false, exact);
 }

@@ -6,6 +6,8 @@
 #include <cstring>
 #include <limits>
 
+#include "nuvo/math/one_line.h"
+
 namespace nuvo::image {
 namespace {
 
@@ -13,14 +15,8 @@ constexpr std::string_view kMagic = "\x93NUMPY";
 constexpr std::size_t kAlignment = 64;
 constexpr std::string_view kBlanks = " \t\n\r";
 
-/// What a file says, for a message of one line.
-std::string excerpt(std::string_view text) {
-    constexpr std::size_t kLongest = 40;
-    std::string out(text.substr(0, kLongest));
-    for (char& c : out)
-        if (static_cast<unsigned char>(c) < ' ') c = '?';
-    return out;
-}
+/// The beginning of what a file says.
+std::string excerpt(std::string_view text) { return one_line(std::string(text.substr(0, 40))); }
 
 /// A reader of the header's dictionary, a literal of Python.
 class Literal {

@@ -154,7 +154,6 @@ void carry_out(std::vector<PlanNode>& plan, const Recipe& recipe, Progress* prog
     }
     begin(progress, "primitives", items);
     std::vector<SubtreeBuilder> builders;
-    builders.reserve(static_cast<std::size_t>(recipe.threads));
     for (int i = 0; i < recipe.threads; ++i) builders.emplace_back(recipe);
     for_each_index(recipe.threads, tasks.size(), [&](std::size_t i, int thread) {
         PlanNode& node = *tasks[i];

@@ -12,10 +12,15 @@
 namespace nuvo {
 namespace {
 
-TEST(Octree, NamesLeadToNodesWithAndWithoutTheirMap) {
+/// Cut until no leaf holds more than `most`.
+Octree cut_octree(const std::vector<Bounds3>& boxes, std::size_t most) {
     BuildOptions options;
-    options.worth = MaxObjects{2};
-    Octree octree = build_octree(random_boxes(4, 100, 1), options);
+    options.worth = MaxObjects{most};
+    return build_octree(boxes, options);
+}
+
+TEST(Octree, NamesLeadToNodesWithAndWithoutTheirMap) {
+    Octree octree = cut_octree(random_boxes(4, 100, 1), 2);
     EXPECT_TRUE(octree.names().empty());
     const std::size_t bytes = octree.memory_bytes();
     octree.make_names();
@@ -28,9 +33,7 @@ TEST(Octree, NamesLeadToNodesWithAndWithoutTheirMap) {
 
 TEST(Octree, FindLeafReturnsTheHalfOpenLeaf) {
     const auto boxes = random_boxes(3, 200, 2);
-    BuildOptions options;
-    options.worth = MaxObjects{4};
-    const Octree octree = build_octree(boxes, options);
+    const Octree octree = cut_octree(boxes, 4);
     std::mt19937_64 random(77);
     std::uniform_real_distribution<double> place(0, 100);
     for (int i = 0; i < 2000; ++i) {
@@ -48,9 +51,7 @@ TEST(Octree, FindLeafReturnsTheHalfOpenLeaf) {
 
 TEST(Octree, SmallestWidthIsTheNarrowestLeafs) {
     const std::vector<Bounds3> boxes{{{0, 0, 0}, {1, 1, 1}}, {{7, 7, 7}, {8, 16, 32}}};
-    BuildOptions options;
-    options.worth = MaxObjects{1};
-    const Octree octree = build_octree(boxes, options);
+    const Octree octree = cut_octree(boxes, 1);
     double narrowest = 1e300;
     for (const Node& node : octree.nodes()) {
         const Vector3 w = node.voxel.bounds.widths();
@@ -62,9 +63,7 @@ TEST(Octree, SmallestWidthIsTheNarrowestLeafs) {
 
 TEST(Octree, NextVoxelPointLiesInTheNextLeafOfTheRay) {
     const auto boxes = random_boxes(3, 100, 2);
-    BuildOptions options;
-    options.worth = MaxObjects{4};
-    const Octree octree = build_octree(boxes, options);
+    const Octree octree = cut_octree(boxes, 4);
     std::mt19937_64 random(78);
     std::uniform_real_distribution<double> place(1, 99);
     for (int i = 0; i < 1000; ++i) {
@@ -84,10 +83,8 @@ TEST(Octree, NextVoxelPointLiesInTheNextLeafOfTheRay) {
 
 TEST(Octree, PrintsANodeALineIndentedByLevel) {
     const std::vector<Bounds3> boxes{{{0, 0, 0}, {1, 1, 1}}, {{7, 7, 7}, {8, 8, 8}}};
-    BuildOptions options;
-    options.worth = MaxObjects{1};
     std::ostringstream text;
-    print(text, build_octree(boxes, options));
+    print(text, cut_octree(boxes, 1));
     EXPECT_EQ(text.str().substr(0, text.str().find('\n', text.str().find('\n') + 1)),
               "0 node [0 0 0] [8 8 8] midpoint [4 4 4]\n  1 leaf [0 4 0] [4 8 4] 0 items");
 }

@@ -55,22 +55,18 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 #include <bit>
-#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 
 #include "fast/camera/exact_planes.h"
 #include "fast/primary/plane_order.h"
 #include "fast/simd/dispatch.h"
 #include "fast_cases.h"
+#include "real_numbers.h"
 
 // The functions of a pixel against the same in 60 digits: at pixels all over a large picture, of
 // triangles and spheres for which each part of a bound counts.
 namespace nuvo::testing {
 namespace {
-
-using Real = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<60>,
-                                           boost::multiprecision::et_off>;
-using RealVector = Vec3<Real>;
 
 constexpr Resolution kPicture{1920, 1080};
 constexpr unsigned kSeed = 20261133;

@@ -47,30 +47,21 @@ void ask_spheres(const LeafQuestion& q, const float* values, LeafAnswers& out) {
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 
 #include "fast/simd/dispatch.h"
 #include "fast_cases.h"
+#include "real_numbers.h"
 
 // Single rays in leaves against 60 digits: corners, centers and the ray as far off as
 // they are said to be, to the side where that does most.
 namespace nuvo::testing {
 namespace {
 
-using Real = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<60>,
-                                           boost::multiprecision::et_off>;
-using RealVector = Vec3<Real>;
-
 constexpr unsigned kSeed = 20261151;
 
 double sign_of(double x) { return x < 0 ? -1 : 1; }
 Vector3 signs_of(const Vector3& v) { return {sign_of(v.x), sign_of(v.y), sign_of(v.z)}; }
-
-/// Of what a bound allows, the most that an error took.
-void attain(double& share, const Real& error, const Real& bound) {
-    share = std::fmax(share, static_cast<double>(Real(error / bound)));
-}
 
 /// A leaf's grid and a ray that starts on it.
 struct GridRay {

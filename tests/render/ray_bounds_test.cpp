@@ -31,25 +31,17 @@ void prepare_rays(std::span<const Ray> rays, const LocalFrame& frame, float reac
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 
 #include "fast/simd/dispatch.h"
 #include "fast_cases.h"
+#include "real_numbers.h"
 
 // Single rays at planes and boxes against 60 digits, from near and far.
 namespace nuvo::testing {
 namespace {
 
-using Real = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<60>,
-                                           boost::multiprecision::et_off>;
-
 constexpr unsigned kSeed = 20261201;
-
-/// Of what a bound allows, the most that an error took.
-void attain(double& share, const Real& error, const Real& bound) {
-    share = std::fmax(share, static_cast<double>(Real(error / bound)));
-}
 
 // 16 rays to places about the root, of any length.
 std::vector<Ray> any_rays(std::mt19937_64& random, const LocalFrame& frame, bool is_far) {

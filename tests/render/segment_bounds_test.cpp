@@ -1,20 +1,17 @@
 #include <gtest/gtest.h>
 
-#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 #include <random>
 
 #include "fast/shadow/segment_walk.h"
 #include "leaf_boxes.h"
 #include "property/test_scenes.h"
+#include "real_numbers.h"
 
 // Single rays at voxels and boxes that they touch in a point, or pass by less than roundings,
 // against 60 digits.
 namespace nuvo::testing {
 namespace {
-
-using Real = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<60>,
-                                           boost::multiprecision::et_off>;
 
 constexpr unsigned kSeed = 20261181;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();

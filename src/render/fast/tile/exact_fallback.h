@@ -96,9 +96,6 @@ class ExactFallback {
         return !Slabs(ray.ray).surely_missed(scene_.primitives().item_boxes[id], ray.end);
     }
 
-    const FastScene& scene_;
-    const CameraRays& camera_;
-    Kernel kernel_;
     // What counts is leaves: so many cost as much as a test.
     static constexpr std::uint64_t kLeavesOfTest = 32;
     bool may_test() const { return may_spend(kLeavesOfTest); }
@@ -108,6 +105,9 @@ class ExactFallback {
         return !is_exhausted_;
     }
 
+    const FastScene& scene_;
+    const CameraRays& camera_;
+    Kernel kernel_;
     std::uint64_t allowed_ = std::numeric_limits<std::uint64_t>::max();
     mutable std::uint64_t spent_ = 0;
     mutable bool is_exhausted_ = false;
