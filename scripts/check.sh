@@ -4,6 +4,7 @@
 set -euo pipefail
 source "$(dirname -- "${BASH_SOURCE[0]}")/setup.sh"
 
+nuvo_check_proc
 nuvo_install "${nuvo_packages[@]}" clang clang-format clang-tidy libclang-rt-dev
 cd "$nuvo_root"
 

@@ -18,6 +18,7 @@ done
 minutes=${words[0]:-} seed=${words[1]:-$((RANDOM * 32768 + RANDOM))}
 [[ $minutes =~ ^[1-9][0-9]*$ && $seed =~ ^[0-9]+$ && ${#words[@]} -le 2 ]] ||
     { echo "usage: scripts/fuzz.sh [--no-bytes] MINUTES [SEED]" >&2; exit 2; }
+[ $bytes = no ] || nuvo_check_proc "--no-bytes"
 seconds=$((minutes * 60))
 results=$nuvo_root/fuzz-results/$seed
 mkdir -p "$results"

@@ -96,6 +96,13 @@ nuvo_quietly() {
     return $status
 }
 
+# Ends where the address sanitizer would take each stack for overrun: it reads its bounds there.
+nuvo_check_proc() {
+    [ -r /proc/self/maps ] && return
+    echo "${0##*/}: the sanitizers need /proc (mount -t proc proc /proc)${1:+, or $1}" >&2
+    exit 2
+}
+
 # Seconds of one core that a step of a build takes: with all instruction sets, with one.
 nuvo_step_seconds() { case $1 in native) echo 1 ;; *) echo 2 ;; esac; }
 

@@ -69,6 +69,7 @@ Report begin_report(const LoadedScene& loaded) {
     report.parse_seconds = loaded.parse_seconds;
     report.warnings = loaded.scene.warnings;
     report.parse_wall_seconds = loaded.parse_wall_seconds;
+    report.memory = loaded.memory;
     return report;
 }
 

@@ -9,8 +9,6 @@ namespace nuvo::app {
 void write_profile(JsonWriter& json, const Options& options);
 /// The member "provenance": what made the figures, from what, where and when.
 void write_provenance(JsonWriter& json, const Options& options);
-/// The member "peak_memory_bytes": of the process so far.
-void write_peak_memory(JsonWriter& json);
 /// The member "resolution".
 void write_resolution(JsonWriter& json, Resolution resolution);
 

@@ -34,7 +34,9 @@ class SerialRun {
     std::vector<RayAnswer> answers(std::span<const Ray> rays) const {
         return closest_hits(scene_, primitives_, &octree_, profile_, rays, progress_);
     }
-    void describe(Pass& pass) const {
+    void describe(Pass& pass, const Options& options) const {
+        pass.memory.primitives = memory_bytes(primitives_);
+        if (options.json) pass.memory.tracer = tracer_bytes(scene_, primitives_, profile_);
         pass.tree = figures(octree_);
         pass.tree->sah =
             final_sah(octree_, sah_prices(scene_, primitives_, profile_, octree_.leaf_count()));
@@ -83,8 +85,9 @@ class TileRun {
     std::vector<RayAnswer> answers(std::span<const Ray> rays) const {
         return tracer_.closest_hits(rays);
     }
-    void describe(Pass& pass) const {
+    void describe(Pass& pass, const Options&) const {
         pass.name = name_of(kOctreeTypes, tracer_.octree_type());
+        pass.memory.primitives = memory_bytes(primitives_);
         pass.tiles = figures(tracer_, options_);
     }
     void count(Pass& pass, const Options& options) {
@@ -96,7 +99,7 @@ class TileRun {
         if (!options.wants_planes() && !options.octree) return;
         walked_.type = tracer_.octree_type();
         walk_.emplace(scene_, options, walked_, meter_);
-        walk_->describe(pass);
+        walk_->describe(pass, options);
         if (options.wants_planes()) walk_->count(pass, options);
     }
     OctreeType octree_type() const { return tracer_.octree_type(); }
@@ -127,20 +130,23 @@ Pass run_repeatedly(const Scene& scene, const Options& options, const Profile& p
         const StageStopwatch build;
         run.emplace(scene, options, profile, meter);
         note(pass.build_seconds, pass.build_wall_seconds, build);
+        if (i == 0) pass.memory.peak_building = peak_memory_bytes();
         picture = samples = Image();  // two pictures need not be held at once
         meter.begin("tracing");
         const StageStopwatch trace;
         samples = run->picture(options.traced_resolution());
         if (options.samples > 1) picture = image::averaged(samples, options.samples);
         note(pass.trace_seconds, pass.trace_wall_seconds, trace);
+        if (i == 0) pass.memory.peak_tracing = peak_memory_bytes();
     }
     pass.process = process.elapsed();
     meter.end();
-    run->describe(pass);
+    run->describe(pass, options);
     run->count(pass, options);
     meter.end();
     pass.remarks = remarks(scene, profile, samples,
                            [&](std::span<const Ray> rays) { return run->answers(rays); });
+    pass.memory.picture = vector_bytes(picture.pixels()) + vector_bytes(samples.pixels());
     if (options.samples == 1) picture = std::move(samples);
     if (options.octree) run->leave_octree(pass);
     return pass;
@@ -155,13 +161,15 @@ Pass answer_once(const Scene& scene, const Options& options, std::span<const Ray
     const StageStopwatch build;
     const Run run(scene, options, options.profile, meter);
     note(pass.build_seconds, pass.build_wall_seconds, build);
+    pass.memory.peak_building = peak_memory_bytes();
     meter.begin("answering");
     const StageStopwatch trace;
     answers = run.answers(rays);
     note(pass.trace_seconds, pass.trace_wall_seconds, trace);
+    pass.memory.peak_tracing = peak_memory_bytes();
     meter.end();
     pass.process = process.elapsed();
-    run.describe(pass);
+    run.describe(pass, options);
     return pass;
 }
 
@@ -205,6 +213,9 @@ Pass run_brute_force(const Scene& scene, const Options& options, Meter& meter, I
     if (options.samples > 1) picture = image::averaged(picture, options.samples);
     note(pass.trace_seconds, pass.trace_wall_seconds, trace);
     pass.process = process.elapsed();
+    pass.memory = {memory_bytes(primitives),
+                   options.json ? tracer_bytes(scene, primitives, options.profile) : 0,
+                   vector_bytes(picture.pixels()), 0, peak_memory_bytes()};
     if (options.wants_planes()) {
         meter.begin("counting by brute force");
         pass.planes = record_planes(scene, primitives, nullptr, options.profile, options.resolution,

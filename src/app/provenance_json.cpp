@@ -1,4 +1,3 @@
-#include <sys/resource.h>
 #include <sys/utsname.h>
 #include <unistd.h>
 
@@ -72,13 +71,6 @@ void write_provenance(JsonWriter& json, const Options& options) {
     for (const auto& [name, version] : info.libraries) json.member(name, version);
     json.end_object();
     json.end_object();
-}
-
-void write_peak_memory(JsonWriter& json) {
-    rusage usage{};
-    constexpr std::int64_t kUnit = 1024;  // Linux tells kilobytes
-    if (::getrusage(RUSAGE_SELF, &usage) == 0)
-        json.member("peak_memory_bytes", kUnit * std::int64_t{usage.ru_maxrss});
 }
 
 }  // namespace nuvo::app

@@ -100,6 +100,8 @@ void write_tiles(JsonWriter& json, const TileFigures& tiles, bool has_serial_cou
     json.member("nodes", tiles.nodes);
     json.member("references", tiles.references);
     json.member("structure_bytes", tiles.memory.structure);
+    json.member("corner_bytes", tiles.memory.corners);
+    json.member("kept_bytes", tiles.memory.kept);
     json.member("table_bytes", tiles.memory.tables);
     write_leaves(json, tiles.leaves);
     json.end_object();
@@ -140,6 +142,24 @@ void write_look_files(JsonWriter& json, const LookFiles& files) {
     if (!files.octree.empty()) json.member("octree_file", files.octree);
 }
 
+void write_memory(JsonWriter& json, const PassMemory& memory) {
+    json.member("primitives_bytes", memory.primitives);
+    json.member("tracer_bytes", memory.tracer);
+    json.member("picture_bytes", memory.picture);
+    json.member("peak_building_bytes", memory.peak_building);
+    json.member("peak_tracing_bytes", memory.peak_tracing);
+}
+
+void write_memory(JsonWriter& json, const Report& report) {
+    json.key("memory");
+    json.begin_object();
+    json.member("scene_bytes", report.memory.scene);
+    json.member("peak_start_bytes", report.memory.peak_start);
+    json.member("peak_reading_bytes", report.memory.peak_reading);
+    if (report.passes.size() == 1) write_memory(json, report.passes.front().memory);
+    json.end_object();
+}
+
 void write_pass(JsonWriter& json, const Pass& pass) {
     if (pass.tiles) write_tiles(json, *pass.tiles, pass.counts.has_value());
     if (pass.tiles && pass.tree) json.member("walk", "serial exact");  // its tree and counts
@@ -162,6 +182,10 @@ void write_passes(JsonWriter& json, const std::vector<Pass>& passes) {
     for (const Pass& pass : passes) {
         json.begin_object();
         json.member("name", pass.name);
+        json.key("memory");
+        json.begin_object();
+        write_memory(json, pass.memory);
+        json.end_object();
         write_pass(json, pass);
         json.end_object();
     }
@@ -225,7 +249,8 @@ std::string report_json(const Options& options, const Report& report) {
     }
     json.member("write_seconds", report.write_seconds);
     json.member("write_wall_seconds", report.write_wall_seconds);
-    write_peak_memory(json);
+    write_memory(json, report);
+    json.member("peak_memory_bytes", peak_memory_bytes());
     if (!report.pairs.empty()) write_pairs(json, report.pairs);
     if (report.error) {
         json.key("error");

@@ -108,6 +108,7 @@ LoadedScene load(const Options& options, Meter& meter) {
                                meter.begin("reading"),
                                options.answer_parts.def ? &loaded.shape_names : nullptr,
                                options.thread_count()};
+    loaded.memory.peak_start = peak_memory_bytes();
     const StageStopwatch watch;
     loaded.scene =
         piped ? x3d::read_text(read_standard_input(options.limits.file_bytes, how.progress),
@@ -115,6 +116,8 @@ LoadedScene load(const Options& options, Meter& meter) {
               : x3d::read_file(loaded.path, how);
     loaded.parse_seconds = watch.seconds();
     loaded.parse_wall_seconds = watch.wall_seconds();
+    loaded.memory.peak_reading = peak_memory_bytes();
+    loaded.memory.scene = memory_bytes(loaded.scene);
     meter.end();
     for (const std::string& warning : loaded.scene.warnings)
         std::cerr << "nuvo: warning: " + one_line(loaded.name + ": " + warning) + '\n';

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "meter.h"
+#include "nuvo/app/memory.h"
 #include "nuvo/app/options.h"
 #include "nuvo/scene/scene.h"
 
@@ -17,6 +18,7 @@ struct LoadedScene {
     std::vector<std::string> shape_names;  ///< if answers want them
     double parse_seconds = 0;
     double parse_wall_seconds = 0;
+    RunMemory memory;
 };
 
 /// Reads the scene that the options name; its warnings go to standard error. Throws x3d::Error.

@@ -7,6 +7,9 @@
 #if defined(__linux__)
 #include <sys/mman.h>
 #endif
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
 
 namespace nuvo {
 namespace {
@@ -33,6 +36,13 @@ class KeptBlocks {
         blocks_.clear();
     }
 
+    std::size_t bytes() {
+        const std::lock_guard lock(mutex_);
+        std::size_t sum = 0;
+        for (const Block& block : blocks_) sum += block.used;
+        return sum;
+    }
+
     void* take(std::size_t size) {
         const std::lock_guard lock(mutex_);
         // The last one: it is most likely still in a cache.
@@ -44,11 +54,11 @@ class KeptBlocks {
         return at;
     }
     /// False: to be freed.
-    bool keep(void* at, std::size_t size) noexcept {
+    bool keep(void* at, std::size_t size, std::size_t used) noexcept {
         const std::lock_guard lock(mutex_);
         if (keepers_ == 0) return false;
         try {
-            blocks_.push_back({at, size});
+            blocks_.push_back({at, size, used});
         } catch (const std::bad_alloc&) {
             return false;
         }
@@ -59,6 +69,7 @@ class KeptBlocks {
     struct Block {
         void* at;
         std::size_t size;
+        std::size_t used;  // by the last use
     };
 
     std::mutex mutex_;
@@ -76,6 +87,14 @@ KeptBlocks& kept_blocks() {
 BlockKeeper::BlockKeeper() { kept_blocks().add_keeper(); }
 BlockKeeper::~BlockKeeper() { kept_blocks().drop_keeper(); }
 
+std::size_t kept_block_bytes() { return kept_blocks().bytes(); }
+
+void trim_heap() {
+#if defined(__GLIBC__)
+    malloc_trim(0);
+#endif
+}
+
 void* allocate_block(std::size_t bytes) {
     if (bytes < kLeastKept) return ::operator new(bytes, alignment(bytes));
     const std::size_t size = std::bit_ceil(bytes);
@@ -90,7 +109,7 @@ void* allocate_block(std::size_t bytes) {
 void free_block(void* at, std::size_t bytes) noexcept {
     if (bytes < kLeastKept) return ::operator delete(at, alignment(bytes));
     const std::size_t size = std::bit_ceil(bytes);
-    if (!kept_blocks().keep(at, size)) ::operator delete(at, alignment(size));
+    if (!kept_blocks().keep(at, size, bytes)) ::operator delete(at, alignment(size));
 }
 
 }  // namespace nuvo

@@ -7,19 +7,20 @@
 namespace nuvo {
 
 BestFirstBuilder::BestFirstBuilder(std::span<const Bounds3> boxes, const BuildOptions& options)
-    : options_(options), finder_(boxes, options) {}
+    : options_(options), finder_(std::in_place, boxes, options) {}
 
 Octree BestFirstBuilder::build() {
-    std::vector<ItemId> all(finder_.item_count());
+    std::vector<ItemId> all(finder_->item_count());
     std::iota(all.begin(), all.end(), ItemId{0});
     references_ = all.size();
     begin_progress(options_, references_);
-    add({Voxel::centered(finder_.root())}, std::move(all));
+    add({Voxel::centered(finder_->root())}, std::move(all));
     while (!offers_.empty() && references_ < options_.max_references) {
         const NodeIndex best = offers_.top().node;
         offers_.pop();
         cut(best);
     }
+    finder_.reset();  // which holds as much as the octree
     return in_label_order();
 }
 
@@ -30,7 +31,7 @@ void BestFirstBuilder::add(const Node& node, std::vector<ItemId> items) {
     const int digits = label_digits(node.label);
     if (digits + 1 >= options_.max_depth) return;
     Leaf& leaf = leaves_.back();
-    std::optional<PayingCut> cut = finder_.find(node.voxel, leaf.items);
+    std::optional<PayingCut> cut = finder_->find(node.voxel, leaf.items);
     if (!cut) return;
     // A cut that adds none is as good as one that adds one.
     const std::size_t after = std::max(cut->references(), leaf.items.size() + 1);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <queue>
 #include <span>
 #include <vector>
@@ -37,7 +38,7 @@ class BestFirstBuilder {
     Octree in_label_order();
 
     const BuildOptions& options_;
-    CutFinder finder_;
+    std::optional<CutFinder> finder_;  // until all cuts are made
     std::vector<Node> nodes_;
     std::vector<Leaf> leaves_;  // by node; of interior nodes empty
     std::priority_queue<Offer> offers_;

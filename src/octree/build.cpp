@@ -1,6 +1,7 @@
 #include "nuvo/octree/build.h"
 
 #include "best_first.h"
+#include "nuvo/math/big_vector.h"
 #include "published.h"
 
 namespace nuvo {
@@ -8,7 +9,9 @@ namespace nuvo {
 Octree build_octree(std::span<const Bounds3> boxes, const BuildOptions& options) {
     if (const auto* costs = std::get_if<ThesisCosts>(&options.worth))
         return PublishedBuilder(boxes, options, *costs).build();
-    return BestFirstBuilder(boxes, options).build();
+    Octree octree = BestFirstBuilder(boxes, options).build();
+    trim_heap();
+    return octree;
 }
 
 SahTotals sah_totals(const Octree& octree) {

@@ -62,6 +62,7 @@ class ExactKernelOf {
         : store_(scene, primitives, back_faces), triangles_(triangles), bias_(bias) {}
 
     const PrimitiveSource& source(PrimitiveId id) const { return store_.source(id); }
+    std::size_t memory_bytes() const { return store_.memory_bytes(); }
     const StageCounts& stage_counts() const { return counts_; }
 
     PreparedRay prepare(const Ray& ray) const { return ExactRay(ray, triangles_); }

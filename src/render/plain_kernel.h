@@ -56,6 +56,7 @@ class PlainKernel {
         : store_(scene, primitives, back_faces, Triangles(holds_runs(primitives))), bias_(bias) {}
 
     const PrimitiveSource& source(PrimitiveId id) const { return store_.source(id); }
+    std::size_t memory_bytes() const { return store_.memory_bytes(); }
 
     PreparedRay prepare(const Ray& ray) const {
         return {Vec3<T>(ray.origin), Vec3<T>(ray.direction)};

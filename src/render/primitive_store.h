@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -68,6 +69,8 @@ class PrimitiveStore {
                    TriangleList empty = {})
         : sources_(primitives.sources), triangles_(std::move(empty)) {
         slots_.reserve(sources_.size());
+        if constexpr (std::is_same_v<TriangleList, std::vector<Triangle>>)
+            triangles_.reserve(primitives.kind(PrimitiveKind::kTriangle).count);
         for (const PrimitiveSource& source : sources_) {
             const Object& object = scene.objects[source.object];
             add(object, source);
@@ -78,6 +81,14 @@ class PrimitiveStore {
 
     const PrimitiveSource& source(PrimitiveId id) const { return sources_[id]; }
     Faces faces(PrimitiveId id) const { return faces_of(slots_[id]); }
+    std::size_t memory_bytes() const {
+        const std::size_t others =
+            vector_bytes(slots_) + vector_bytes(spheres_) + vector_bytes(ellipsoids_);
+        if constexpr (requires { triangles_.memory_bytes(); })
+            return others + triangles_.memory_bytes();
+        else
+            return others + vector_bytes(triangles_);
+    }
 
     /// Calls `use` with the triangle, sphere or ellipsoid of that id, and what is there of it.
     template <typename Use>

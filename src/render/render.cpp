@@ -202,6 +202,11 @@ SahCosts sah_prices(const Scene& scene, const Primitives& primitives, const Prof
                : calibrated_costs(primitives).costs();
 }
 
+std::size_t tracer_bytes(const Scene& scene, const Primitives& primitives, const Profile& profile) {
+    return with_kernel(scene, primitives, profile,
+                       [](const auto& kernel) { return kernel.memory_bytes(); });
+}
+
 Image render(const Scene& scene, const Primitives& primitives, const Octree& octree,
              const Profile& profile, Resolution resolution, Progress* progress) {
     return with_kernel(scene, primitives, profile, [&](const auto& kernel) {

@@ -277,6 +277,46 @@ TEST_F(Program, JsonTellsWhatMadeTheFigures) {
     EXPECT_EQ(json["samples"], 1);
 }
 
+// Each number is of what its part holds; together they are what the system counts.
+TEST_F(Program, JsonTellsTheMemoryByPart) {
+#ifdef NUVO_SANITIZED
+    GTEST_SKIP() << "a sanitizer holds memory of its own";
+#endif
+    constexpr int kSide = 400;
+    std::string heights;
+    for (int i = 0; i < kSide * kSide; ++i) heights += std::to_string(i * i % 7) + ' ';
+    put("a.x3d",
+        "<X3D version='3.0'><Scene><Shape><ElevationGrid xDimension='400' "
+        "zDimension='400' height='" +
+            heights + "'/></Shape></Scene></X3D>");
+    for (const std::string profile : {"exact", "fast"}) {
+        ASSERT_EQ(run({"a.x3d", "--profile=" + profile, "--rep=1", "--res=64x64", "--threads=1",
+                       "--json=a.json"})
+                      .exit_code,
+                  0);
+        const auto json = nlohmann::json::parse(content("a.json"));
+        const auto& memory = json["memory"];
+        double sum = 0;
+        for (const char* part : {"peak_start_bytes", "scene_bytes", "primitives_bytes",
+                                 "tracer_bytes", "picture_bytes"})
+            sum += memory[part].get<double>();
+        if (profile == "exact") {
+            sum += json["tree"]["memory_bytes"].get<double>();
+        } else {
+            for (const char* part :
+                 {"structure_bytes", "corner_bytes", "table_bytes", "kept_bytes"})
+                sum += json["tiles"][part].get<double>();
+        }
+        const double peak = memory["peak_tracing_bytes"];
+        // Large pages and what building leaves: a tenth of a scene of 10^6, more of this one.
+        EXPECT_GT(sum / peak, 0.75) << profile << ": " << memory.dump();
+        EXPECT_LT(sum / peak, 1.1) << profile << ": " << memory.dump();
+        EXPECT_LE(memory["peak_reading_bytes"], memory["peak_building_bytes"]);
+        EXPECT_LE(memory["peak_building_bytes"], peak);
+        EXPECT_LE(peak, json["peak_memory_bytes"].get<double>());
+    }
+}
+
 TEST_F(Program, CountersAreAsked) {
     put("a.x3d", kSmallScene);
     const std::vector<std::string> plain{"--file=a", "--rep=1", "--res=4,4"};

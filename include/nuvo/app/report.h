@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "nuvo/app/clocks.h"
+#include "nuvo/app/memory.h"
 #include "nuvo/app/options.h"
 #include "nuvo/image/compare.h"
 #include "nuvo/octree/cost.h"
@@ -108,7 +109,8 @@ struct Pass {
     std::vector<double> trace_seconds;
     std::vector<double> build_wall_seconds;
     std::vector<double> trace_wall_seconds;
-    ProcessTimes process;              ///< around all repetitions
+    ProcessTimes process;  ///< around all repetitions
+    PassMemory memory;
     std::vector<std::string> remarks;  ///< on the picture, a line each
 };
 
@@ -125,6 +127,7 @@ struct Report {
     std::string picture;     ///< empty: none was written
     std::string difference;  ///< the difference picture; empty: none was written
     SceneCounts scene;
+    RunMemory memory;
     double parse_seconds = 0;
     double write_seconds = 0;
     std::vector<std::string> warnings;  ///< of reading the scene

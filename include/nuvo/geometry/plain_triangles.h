@@ -6,6 +6,7 @@
 
 #include "nuvo/geometry/plain_tests.h"
 #include "nuvo/geometry/triangle_mesh.h"
+#include "nuvo/math/big_vector.h"
 
 namespace nuvo::plain {
 
@@ -32,6 +33,11 @@ class Triangles {
             columns_[i].push_back(corner[i / 3][static_cast<int>(i % 3)]);
     }
     std::size_t size() const { return corners_.size(); }
+    std::size_t memory_bytes() const {
+        std::size_t bytes = vector_bytes(corners_);
+        for (const auto& column : columns_) bytes += vector_bytes(column);
+        return bytes;
+    }
     const Corners<T>& operator[](std::size_t i) const { return corners_[i]; }
 
     /// Calls `use(i, hit)` for each triangle of [first, last) that the ray hits, in order.

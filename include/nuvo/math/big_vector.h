@@ -19,6 +19,13 @@ class BlockKeeper {
     BlockKeeper& operator=(const BlockKeeper&) = delete;
 };
 
+/// Bytes of freed blocks that stay.
+std::size_t kept_block_bytes();
+
+/// Gives what the heap holds free back to the system, where the C library can: after work with
+/// millions of small blocks, which else stay between those in use.
+void trim_heap();
+
 /// Memory aligned to 64 bytes, for a multiple of megabytes to a large page.
 void* allocate_block(std::size_t bytes);
 void free_block(void* at, std::size_t bytes) noexcept;
@@ -51,5 +58,11 @@ struct BigAllocator {
 /// T should be trivial; resize() leaves its members unset.
 template <typename T>
 using BigVector = std::vector<T, BigAllocator<T>>;
+
+/// Bytes that the vector holds for its elements.
+template <typename T, typename Allocator>
+std::size_t vector_bytes(const std::vector<T, Allocator>& values) {
+    return values.capacity() * sizeof(T);
+}
 
 }  // namespace nuvo

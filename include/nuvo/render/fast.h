@@ -41,6 +41,8 @@ struct FastOptions {
 struct FastMemory {
     std::size_t structure = 0;  ///< nodes, references and leaf copies
     std::size_t tables = 0;     ///< per camera and light, of the last picture
+    std::size_t corners = 0;    ///< of triangles in single precision, and the primitives' order
+    std::size_t kept = 0;       ///< freed blocks that waited for their next use at that time
 };
 
 /// Time by stage on the clock of the wall, in seconds, summed over the threads.

@@ -51,6 +51,9 @@ struct RayAnswer {
 Octree build_tree(const Scene& scene, const Primitives& primitives, const Profile& profile,
                   Progress* progress = nullptr);
 
+/// Bytes of the copies of the primitives that the next functions make for as long as they run.
+std::size_t tracer_bytes(const Scene& scene, const Primitives& primitives, const Profile& profile);
+
 /// Renders through the octree, serially. [thesis 4.1, 4.3]
 Image render(const Scene& scene, const Primitives& primitives, const Octree& octree,
              const Profile& profile, Resolution resolution, Progress* progress = nullptr);

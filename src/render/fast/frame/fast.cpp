@@ -30,6 +30,7 @@ struct FastTracer::State {
     SerialTree serial{fast};
     KeptShadows kept;
     std::size_t table_bytes = 0;
+    std::size_t kept_bytes = 0;
     std::unique_ptr<SingleRays> single;  // made when rays are first asked for
 };
 
@@ -50,6 +51,7 @@ Image FastTracer::render(Resolution resolution, FastTimes* times) {
     Frame frame(state_->serial, state_->options, resolution, times, state_->kept);
     Image image = frame.render();
     state_->table_bytes = frame.memory_bytes();
+    state_->kept_bytes = kept_block_bytes();
     return image;
 }
 
@@ -81,7 +83,8 @@ const CompactOctree& FastTracer::octree() const { return state_->fast.octree(); 
 
 FastMemory FastTracer::memory() const {
     const std::size_t rays = state_->single ? state_->single->memory_bytes() : 0;
-    return {state_->fast.octree().memory_bytes() + rays, state_->table_bytes};
+    return {state_->fast.octree().memory_bytes() + rays, state_->table_bytes,
+            state_->fast.memory_bytes(), state_->kept_bytes};
 }
 
 }  // namespace nuvo

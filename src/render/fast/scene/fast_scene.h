@@ -83,6 +83,11 @@ class FastScene {
     }
     /// Corners rounded to nearest, by slot.
     const BigVector<LocalTriangle>& triangles() const { return triangles_; }
+    /// Without the octree.
+    std::size_t memory_bytes() const {
+        return ids_.size() * sizeof(PrimitiveId) + quadrics_.size() * sizeof(QuadricSlot) +
+               triangles_.size() * sizeof(LocalTriangle);
+    }
 
   private:
     void order_slots(const Bounds3& box);
