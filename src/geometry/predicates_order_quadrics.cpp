@@ -12,7 +12,8 @@ const Ellipsoid& as_ellipsoid(const Ellipsoid& ellipsoid) { return ellipsoid; }
 
 double norm(const Vector3& v) { return std::sqrt(dot(v, v)) * (1 + gamma(4)); }
 double size(const Matrix3& m) {
-    return norm({norm(m.row[0]), norm(m.row[1]), norm(m.row[2])}) * (1 + gamma(4));
+    return std::sqrt(dot(m.row[0], m.row[0]) + dot(m.row[1], m.row[1]) + dot(m.row[2], m.row[2])) *
+           (1 + gamma(8));
 }
 
 /// v / d.
@@ -45,8 +46,9 @@ std::optional<int> sure_order(const ExactRay& ray, const Ellipsoid& a, const Bou
     for (int i = 0; i < 3; ++i) change.row[i] = change.row[i] - b.linear.row[i];
     const Vector3 shift = a.center - b.center;
     const Vector3 v = change * s.value + shift;
-    const double v_error = gamma(6) * (size(change) * norm(s.value) + norm(shift)) * 2 +
-                           size(change) * s.error + 16 * kUnderflow;
+    const double change_size = size(change);
+    const double v_error = gamma(6) * (change_size * norm(s.value) + norm(shift)) * 2 +
+                           change_size * s.error + 16 * kUnderflow;
     BoundedVector numerator = product(adjugate, v);
     numerator.error += size(adjugate.magnitude) * v_error * (1 + gamma(8));
     const BoundedVector w = quotient(numerator, det);
