@@ -104,6 +104,17 @@ void check_value(const std::string& flag, const std::string& value) {
                          value + " takes it as the value)");
 }
 
+/// Of all names only those of flags come to Boost, whose messages never end where a name holds
+/// their own placeholders.
+void check_known(const std::string& word) {
+    if (word == "-h" || word == "--") return;
+    const std::size_t dashes = std::min(word.find_first_not_of('-'), word.size());
+    const std::string name = word.substr(dashes, word.find('=') - dashes);
+    const bool known = std::any_of(flags().begin(), flags().end(),
+                                   [&](const Flag& flag) { return flag.name == name; });
+    if (!known || dashes > 2) fail_unknown(word);
+}
+
 /// The words that are neither flags nor their values, taken out of the arguments.
 std::vector<std::string> take_words(std::vector<std::string>& arguments) {
     std::vector<std::string> words, flagged;
@@ -112,6 +123,7 @@ std::vector<std::string> take_words(std::vector<std::string>& arguments) {
         const bool is_value = i > 0 && wants_value(arguments[i - 1]);
         if (is_value) check_value(arguments[i - 1], word);
         const bool is_flag = word.size() > 1 && word.front() == '-';
+        if (is_flag && !is_value) check_known(word);
         (is_value || is_flag ? flagged : words).push_back(word);
     }
     arguments = std::move(flagged);
@@ -127,15 +139,11 @@ std::map<std::string, std::string> read_tokens(std::vector<std::string> argument
     std::map<std::string, std::string> given;
     const std::vector<std::string> words = take_words(arguments);
     try {
-        const po::parsed_options parsed = po::command_line_parser(arguments)
-                                              .options(all)
-                                              .style(any_dashes)
-                                              .allow_unregistered()
-                                              .run();
+        const po::parsed_options parsed =
+            po::command_line_parser(arguments).options(all).style(any_dashes).run();
         for (const po::option& option : parsed.options) {
             const std::string token =
                 option.original_tokens.empty() ? option.string_key : option.original_tokens[0];
-            if (option.unregistered) fail_unknown(token);
             const std::string value = option.value.empty() ? std::string() : option.value[0];
             if (!given.emplace(option.string_key, value).second)
                 throw UsageError(token + ": given more than once");

@@ -287,6 +287,12 @@ TEST(Options, AnUnknownFlagFarFromAllIsNotGuessedAt) {
     EXPECT_FALSE(contains(error, "did you mean"));
 }
 
+// Boost's message about a value that is missing would go round without end.
+TEST(Options, AnUnknownFlagMayHoldAPlaceholderOfMessages) {
+    for (const std::string flag : {"--t%canonical_option%=", "-%canonical_option%=", "--%option%="})
+        EXPECT_TRUE(contains(usage_error({flag}), flag + ": unknown flag")) << flag;
+}
+
 TEST(Options, AbbreviationsAreNotGuessed) {
     EXPECT_TRUE(contains(usage_error({"--prof=exact"}), "did you mean --profile?"));
     EXPECT_NE(usage_error({"--comp"}), "");
