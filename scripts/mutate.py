@@ -26,9 +26,9 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 # What asks for the bounds of a folder of the fast room.
-NEAR = {"camera": "CameraBounds.*:PixelBounds.*:FastBoxes.*", "primary": "CameraBounds.*:FastBoxes.*",
+NEAR = {"camera": "CameraBounds.*:ConicBounds.*:PixelBounds.*:FastBoxes.*", "primary": "CameraBounds.*:ConicBounds.*:FastBoxes.*",
         "light": "LightBounds.*:LightBuffer.*:WantedItems.*:ShadowPlanes.*",
-        "rays": "LeafBounds.*:RayBounds.*:PairRoots.*:SingleRays.*", "scene": "OctantTests.*:FastScene.*:TriangleChunkTest.*",
+        "rays": "LeafBounds.*:RayBounds.*:PairRoots.*:SingleRays.*", "scene": "BallMap.*:OctantTests.*:FastScene.*:TriangleChunkTest.*",
         "shading": "ShadingBounds.*:ColorBounds.*:VectorMath.*:FastShading.*",
         "shadow": "SegmentBounds.*:LightBounds.*:ShadowPlanes.*:*FastShadows*:BackFaces.*",
         "tile": "SegmentBounds.*:*FastShadows*:FastBoxes.*", "simd": "*Bounds.*:VectorMath.*", "frame": "*FastShadows*"}

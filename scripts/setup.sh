@@ -103,8 +103,8 @@ nuvo_check_proc() {
     exit 2
 }
 
-# Seconds of one core that a step of a build takes: with all instruction sets, with one.
-nuvo_step_seconds() { case $1 in native) echo 1 ;; *) echo 2 ;; esac; }
+# Seconds of one core that a step of a build takes: with one instruction set, under sanitizers, else.
+nuvo_step_seconds() { case $1 in native) echo 1 ;; fuzz | sanitize | thread) echo 6 ;; *) echo 2 ;; esac; }
 
 # Configures and builds a preset: nuvo_build PRESET [target]...
 nuvo_build() {

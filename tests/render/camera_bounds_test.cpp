@@ -6,21 +6,6 @@
 #include <hwy/foreach_target.h>
 
 #include "fast/camera/camera_triangle_lanes.h"
-#include "fast/primary/primary_lanes.h"
-#include "fast/primary/sphere_lanes.h"
-
-namespace nuvo {
-#ifndef NUVO_TESTS_RENDER_CAMERA_BOUNDS_TEST_CPP_
-#define NUVO_TESTS_RENDER_CAMERA_BOUNDS_TEST_CPP_
-/// What a sphere's functions say at some pixels of a tile.
-struct ConicAnswers {
-    static constexpr int kLanes = 16;
-    float discriminant[kLanes], toward[kLanes], low[kLanes], high[kLanes];
-    float error, toward_error;
-    std::uint32_t met;  // blocks
-};
-#endif
-}  // namespace nuvo
 
 HWY_BEFORE_NAMESPACE();
 namespace nuvo::HWY_NAMESPACE {
@@ -30,67 +15,23 @@ std::uint32_t make_triangles(const CameraRays& camera, const Point3& eye, double
     return TriangleMaker(camera, eye, scale).make(batch, out, TriangleBatch::kSize).unknown;
 }
 
-// At the first block's pixels of a tile.
-void ask_conic(const CameraRays& camera, int tile_x, int tile_y, const CameraSphere& sphere,
-               ConicAnswers& out) {
-    const TileRays rays(camera, tile_x, tile_y);
-    SphereConics conics;
-    const CameraSphere* const one[] = {&sphere};
-    conics.fill(one, 1, rays);
-    const Floats x = Floats::load(kOffsets.x[0]);
-    const Floats y = Floats::load(kOffsets.y[0]);
-    const Floats discriminant = conics.discriminant(0, x, y);
-    const SphereHits hits(sphere, conics, 0, discriminant, x, y);
-    discriminant.store(out.discriminant);
-    conics.toward(0, x, y).store(out.toward);
-    hits.low.store(out.low);
-    hits.high.store(out.high);
-    out.error = conics.error(0);
-    out.toward_error = conics.toward_error(0);
-    out.met = conics.met(0, 0xffff);
-}
-
 }  // namespace nuvo::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-#include <bit>
 #include <cmath>
 
+#include "camera_view.h"
 #include "fast/camera/exact_planes.h"
 #include "fast/primary/plane_order.h"
 #include "fast/simd/dispatch.h"
-#include "fast_cases.h"
-#include "real_numbers.h"
 
 // The functions of a pixel against the same in 60 digits: at pixels all over a large picture, of
-// triangles and spheres for which each part of a bound counts.
+// triangles for which each part of a bound counts.
 namespace nuvo::testing {
 namespace {
 
-constexpr Resolution kPicture{1920, 1080};
 constexpr unsigned kSeed = 20261133;
-
-struct View {
-    Scene scene;
-    LocalFrame frame;
-    CameraRays camera;
-
-    static Scene scene_of(const Camera& camera) {
-        Scene scene;
-        scene.camera = camera;
-        return scene;
-    }
-    View(const Camera& camera_in, double scale)
-        : scene(scene_of(camera_in)),
-          frame{{}, scale, 0.25},
-          camera(scene.camera, kPicture, frame) {}
-
-    RealVector direction(Real x, Real y) const {
-        return RealVector(camera.forward) + RealVector(camera.right) * x +
-               RealVector(camera.down) * y;
-    }
-};
 
 /// A pixel's coordinates, as its tile's middle and the offset from it.
 struct Pixel {
@@ -171,13 +112,6 @@ struct TruePlanes {
     }
 };
 
-Camera random_camera(std::mt19937_64& random, int kind = 0) {
-    Camera camera = camera_along(uniform_point(random, 1), uniform_point(random, 1));
-    if (random() % 3 == 0) camera.field_of_view_rad = uniform(random, 1, 2.9);
-    if (kind == kTelescope) camera.field_of_view_rad = std::exp2(uniform(random, -36, -24));
-    return camera;
-}
-
 TEST(CameraBounds, HoldTheFunctionsOfTriangles) {
     for (const InstructionSet isa : supported_instruction_sets()) {
         const auto make = NUVO_FOR_ISA(isa, make_triangles);
@@ -185,7 +119,7 @@ TEST(CameraBounds, HoldTheFunctionsOfTriangles) {
         double widest[4] = {};
         int judged[kKinds] = {};
         for (int round = 0; round < 300; ++round) {
-            const View view(random_camera(random, round % kKinds),
+            const View view(random_camera(random, round % kKinds == kTelescope),
                             std::exp2(-static_cast<int>(random() % 8)));
             const Point3& eye = view.scene.camera.position;
             TriangleBatch batch{};
@@ -228,7 +162,7 @@ TEST(CameraBounds, HoldTheFunctionsOfTrianglesMadeExactly) {
     std::mt19937_64 random(kSeed + 1);
     double widest[4] = {};
     for (int round = 0; round < 600; ++round) {
-        const View view(random_camera(random, round % kKinds),
+        const View view(random_camera(random, round % kKinds == kTelescope),
                         std::exp2(-static_cast<int>(random() % 8)));
         const Point3& eye = view.scene.camera.position;
         const Triangle t = triangle_before(random, eye, view, round % kKinds);
@@ -317,112 +251,6 @@ TEST(CameraBounds, HoldTheOrderOfTwoPlanes) {
         }
     }
     EXPECT_GT(sure, 15000);
-}
-
-struct MetBlocks {
-    int truly = 0;
-    int found = 0;
-};
-
-// Whoever has a pixel whose ray meets the sphere.
-void judge_blocks(const View& view, const CameraRays& camera, int tile_x, int tile_y,
-                  const RealVector& f, const Real& r, std::uint32_t met, MetBlocks& blocks) {
-    using Long = Vec3<long double>;
-    const auto rounded = [](const RealVector& v) {
-        return Long(static_cast<long double>(v.x), static_cast<long double>(v.y),
-                    static_cast<long double>(v.z));
-    };
-    const Long from = rounded(f);
-    const auto radius = static_cast<long double>(r);
-    std::uint32_t truly = 0;
-    for (int lane = 0; lane < kTileLanes; ++lane) {
-        const Long d = rounded(view.direction(camera.center_x(tile_x + lane_x(lane)),
-                                              camera.center_y(tile_y + lane_y(lane))));
-        const Long across = cross(from, d);
-        if (dot(d, d) * radius * radius >= dot(across, across)) truly |= 1U << lane / kBlockLanes;
-    }
-    ASSERT_EQ(truly & ~met, 0U);
-    blocks.truly += std::popcount(truly);
-    blocks.found += std::popcount(met);
-}
-
-TEST(CameraBounds, HoldTheFunctionsOfSpheres) {
-    for (const InstructionSet isa : supported_instruction_sets()) {
-        const auto ask = NUVO_FOR_ISA(isa, ask_conic);
-        std::mt19937_64 random(kSeed + 3);
-        int judged = 0;
-        int hit = 0;
-        MetBlocks blocks;
-        double widest = 0;  // of 1 / t, relative, where the sphere is large in the picture
-        for (int round = 0; round < 800; ++round) {
-            View view(random_camera(random), 1);
-            const Point3& eye = view.scene.camera.position;
-            const int tile_x = static_cast<int>(random() % 120) * kTileSide;
-            const int tile_y = static_cast<int>(random() % 67) * kTileSide;
-            // Behind the tile, beside it, tangent to a ray of it, or around the eye.
-            const int kind = round % 4;
-            const Vector3 way = normalized(
-                view.camera.direction(view.camera.center_x(tile_x) + uniform(random, 0, 4),
-                                      view.camera.center_y(tile_y) + uniform(random, 0, 4)));
-            const double far = std::exp2(uniform(random, -2, 6));
-            double radius = std::exp2(uniform(random, -14, 1)) * far;
-            Point3 center = eye + way * far;
-            if (kind == 1) radius = std::exp2(uniform(random, -36, -14)) * far;  // tiny
-            if (kind == 2)
-                center = center + normalized(cross(way, uniform_point(random, 1))) * radius;
-            if (kind == 3) center = eye + uniform_point(random, 0.5) * radius;
-            Object object;
-            object.shape = Sphere{center, radius};
-            view.scene.objects = {object};
-            const Primitives primitives = flatten(view.scene, LeafContent::kPrimitives);
-            const FastScene fast(view.scene, primitives, OctreeType::kUniform, 1);
-            const CameraRays camera(view.scene.camera, kPicture, fast.frame());
-            CameraTables tables(fast, camera, isa);
-            fill_tables(fast, 1, tables);
-            const CameraSphere& sphere = tables.spheres[0];
-            if (sphere.exactly) continue;
-            ConicAnswers found;
-            ask(camera, tile_x, tile_y, sphere, found);
-            ++judged;
-            const Real scale = fast.frame().scale;
-            const RealVector f = (RealVector(eye) - RealVector(center)) * scale;
-            const Real r = Real(radius) * scale;
-            const Real gap = sqrt(dot(f, f)) - r;
-            if (gap > 0) {
-                ASSERT_GE(Real(sphere.nearest) * gap, 1) << "round " << round;
-                if (kind == 0) {
-                    EXPECT_LT(Real(sphere.nearest) * gap, 1 + 0x1p-20);
-                }
-            }
-            judge_blocks(view, camera, tile_x, tile_y, f, r, found.met, blocks);
-            for (int lane = 0; lane < ConicAnswers::kLanes; ++lane) {
-                const Real x = Real(camera.center_x(tile_x + lane_x(lane)));
-                const Real y = Real(camera.center_y(tile_y + lane_y(lane)));
-                const RealVector d = view.direction(x, y);
-                const RealVector across = cross(f, d);
-                const Real discriminant = dot(d, d) * r * r - dot(across, across);
-                const Real toward = dot(f, d);
-                const Real off = abs(Real(found.discriminant[lane]) - discriminant);
-                ASSERT_LE(off, Real(found.error)) << "round " << round << ", lane " << lane;
-                ASSERT_LE(abs(Real(found.toward[lane]) - toward), Real(found.toward_error))
-                    << "round " << round << ", lane " << lane;
-                if (discriminant < 0) continue;
-                const Real power = dot(f, f) - r * r;
-                const Real root = sqrt(discriminant) * (power < 0 ? -1 : 1);
-                const Real q = (root - toward) / power;
-                ASSERT_LE(Real(found.low[lane]), q) << "round " << round << ", lane " << lane;
-                ASSERT_GE(Real(found.high[lane]), q) << "round " << round << ", lane " << lane;
-                ++hit;
-                if (radius < 0.5 * far && discriminant > toward * toward / 64)
-                    widest = std::max(
-                        widest, static_cast<double>(Real(found.high[lane] - found.low[lane]) / q));
-            }
-        }
-        EXPECT_GT(judged, 700);
-        EXPECT_GT(hit, 6000);
-        EXPECT_LT(widest, 0x1p-16);
-        EXPECT_LT(blocks.found, blocks.truly * 1.2) << blocks.truly;
-    }
 }
 
 }  // namespace

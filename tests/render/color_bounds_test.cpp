@@ -54,7 +54,7 @@ struct Tables {
           fast(scene, primitives, OctreeType::kUniform, 1),
           camera(scene.camera, kPicture, fast.frame()),
           spheres(fast, camera, isa),
-          shading(fast, camera, spheres.spheres, isa) {
+          shading(fast, camera, spheres, isa) {
         fill_tables(fast, 1, spheres);
         fill_tables(fast, 1, shading);
     }

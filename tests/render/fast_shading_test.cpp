@@ -46,7 +46,7 @@ class ShadedPicture {
         fill_tables(fast_, 1, tables);
         PrimaryJob job{fast_, camera_, tables, fallback_, true, {}};
         const PrimaryStage primary(isa);
-        ShadingTables shading(fast_, camera_, tables.spheres, resolved(isa));
+        ShadingTables shading(fast_, camera_, tables, resolved(isa));
         fill_tables(fast_, 1, shading);
         ShadingStage stage(shading, redo_exactly);
         Image image(size_.width, size_.height);

@@ -50,7 +50,7 @@ class Shown {
           fallback_(fast_, camera_),
           spheres_(fast_, camera_, isa),
           kernel_(scene, primitives_, std::nullopt),
-          tables(fast_, camera_, spheres_.spheres, resolved(isa)),
+          tables(fast_, camera_, spheres_, resolved(isa)),
           isa_(isa) {
         fill_tables(fast_, 1, spheres_);
         fill_tables(fast_, 1, tables);
@@ -270,7 +270,7 @@ TEST(ShadingBounds, HoldPointsNormalsAndLight) {
         expect(judge.smooth_normal, 0.15, "normals between corners");
         // The light's own roundings, and errors of the points.
         constexpr double kShine[] = {0.75, 0.3, 0.11, 0.17}, kMovedShine[] = {0.99, 0.85, 0.7, 0.9};
-        constexpr double kLobe[] = {0.22, 0.2, 0.1, 0.07}, kMovedLobe[] = {0.85, 0.7, 0.6, 0.7};
+        constexpr double kLobe[] = {0.22, 0.2, 0.1, 0.07}, kMovedLobe[] = {0.85, 0.7, 0.6, 0.6};
         for (int kind = 0; kind < kKinds; ++kind) {
             const std::string name = kNames[kind];
             expect(known.shine[kind], kShine[kind], name);

@@ -101,14 +101,14 @@ TEST_F(TriangleChunkTest, TablesDoNotDependOnWhenAndByHowManyTheyAreFilled) {
     const InstructionSet isa = resolved(InstructionSet::kBest);
     CameraTables camera(fast_, rays, isa);
     ShadowTables shadow(fast_, isa);
-    ShadingTables shading(fast_, rays, camera.spheres, isa);
+    ShadingTables shading(fast_, rays, camera, isa);
     fill_tables(fast_, 1, shading);
     fill_tables(fast_, 1, shadow);
     fill_tables(fast_, 1, camera);
     for (const int threads : {1, 2, 7}) {
         CameraTables camera_later(fast_, rays, isa, threads);
         ShadowTables shadow_later(fast_, isa, threads);
-        ShadingTables shading_later(fast_, rays, camera_later.spheres, isa);
+        ShadingTables shading_later(fast_, rays, camera_later, isa);
         fill_tables(fast_, threads, camera_later, shadow_later, shading_later);
         ASSERT_EQ(camera.spheres.size(), camera_later.spheres.size());
         for (std::size_t i = 0; i < camera.spheres.size(); ++i) {

@@ -16,14 +16,11 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 // Of the float stages that use it.
 float bound(double value) { return rounded_up(value + kFloatUnderflow); }
 
-// `r` in the local frame.
-CameraSphere make_sphere(const Point3& eye, double scale, const Point3& center, double r,
-                         double direction) {
-    const Vector3 from = (eye - center) * scale;
+// A sphere of radius r seen from `from`, all in one frame. `error` bounds that of |from|^2 - r^2,
+// `cross_error` those of from x d and from . d on each axis.
+CameraSphere make_sphere(const Vector3& from, double r, double error, double cross_error) {
     const double ff = dot(from, from);
     const double power = ff - r * r;
-    // f carries one rounding, its square and r's three more.
-    const double error = gamma(8) * (ff + r * r);
     const double gap = std::sqrt(ff) - r;
     CameraSphere out{};
     for (int axis = 0; axis < 3; ++axis) out.from[axis] = from[axis];
@@ -36,9 +33,31 @@ CameraSphere make_sphere(const Point3& eye, double scale, const Point3& center, 
                       : kInfinity;
     if (!(out.nearest > 0)) out.nearest = kInfinity;
     out.distance = bound(std::sqrt(ff));
-    out.cross_error = bound(gamma(32) * max_norm(from) * direction);
+    out.cross_error = bound(cross_error);
     out.exactly = !(std::fabs(power) > 4 * error && std::isfinite(out.inverse_power) &&
                     std::isnormal(out.radius) && std::isfinite(out.cross_error));
+    return out;
+}
+
+// `r` in the local frame.
+CameraSphere make_local_sphere(const Vector3& from, double r, double direction) {
+    // f carries one rounding, its square and r's three more.
+    return make_sphere(from, r, gamma(8) * (dot(from, from) + r * r),
+                       gamma(32) * max_norm(from) * direction);
+}
+
+// The ball of an ellipsoid. [numerics: ellipsoids as balls]
+CameraSphere make_ball(const BallMap& map, const Vector3& from, double direction) {
+    const Vector3 f = map.to_ball * from;
+    const double f_size = max_norm(f);
+    const double f_error = max_norm(from) * (map.error + gamma(8) * map.stretch);
+    const double d_size = map.stretch * direction;
+    const double d_error = direction * (map.error + gamma(8) * map.stretch);
+    CameraSphere out = make_sphere(
+        f, map.radius,
+        gamma(8) * (dot(f, f) + map.radius * map.radius) + 3 * f_error * (2 * f_size + f_error),
+        gamma(32) * f_size * d_size + 4 * (f_size * d_error + f_error * (d_size + d_error)));
+    out.exactly |= !map.sure;
     return out;
 }
 
@@ -48,6 +67,7 @@ CameraTables::CameraTables(const FastScene& scene, const CameraRays& camera, Ins
                            int threads)
     : scene_(scene), camera_(camera), isa_(isa), threads_(threads) {
     spheres.resize(scene.slot_end() - scene.triangle_end());
+    balls.resize(scene.slot_end() - scene.sphere_end());
     boxes.resize(spheres.size());
 }
 
@@ -60,20 +80,28 @@ void CameraTables::take_quadrics(QuadricSpan quadrics) {
             __builtin_prefetch(&spheres[prefetched->slot - scene_.triangle_end()], 1);
         const Object& object = scene_.object(quadric.id);
         const Shape& shape = object.shape;
+        const bool front_only = scene_.front_only(object);
         CameraSphere& out = spheres[quadric.slot - scene_.triangle_end()];
         if (const auto* sphere = std::get_if<Sphere>(&shape)) {
-            out = make_sphere(eye, scale, sphere->center, sphere->radius * scale, direction);
+            out = make_local_sphere((eye - sphere->center) * scale, sphere->radius * scale,
+                                    direction);
+            out.hidden = front_only && !out.exactly && out.inverse_power < 0;
         } else {
             const Bounds3 box = bounds(shape);
             // Halves do not overflow.
             const Vector3 half = (box.max * 0.5 - box.min * 0.5) * scale;
             const double r = length(half) * (1 + gamma(64)) + kFloatUnderflow;
-            out = make_sphere(eye, scale, box.center(), r, direction);
+            out = make_local_sphere((eye - box.center()) * scale, r, direction);
             out.exactly = true;
+            CameraSphere& ball = balls[quadric.slot - scene_.sphere_end()];
+            const Point3& center = std::get<Ellipsoid>(shape).center;
+            ball = make_ball(scene_.ball(quadric.slot), (eye - center) * scale, direction);
+            ball.material = object.material;
+            ball.solid = object.solid;
+            out.hidden = front_only && !ball.exactly && ball.inverse_power < 0;
         }
         out.material = object.material;
         out.solid = object.solid;
-        out.hidden = scene_.front_only(object) && !out.exactly && out.inverse_power < 0;
     }
 }
 

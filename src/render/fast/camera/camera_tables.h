@@ -27,7 +27,8 @@ struct alignas(64) CameraTriangle {
 static_assert(sizeof(CameraTriangle) == 64);
 inline constexpr int kCameraRoundings = 12;
 
-/// A sphere, or the sphere around an ellipsoid, seen from the camera.
+/// A sphere, the sphere around an ellipsoid, or an ellipsoid's ball, where that is mapped to, seen
+/// from the camera.
 struct alignas(64) CameraSphere {
     double from[3];       ///< f: from the centre to the camera, local
     double exact_radius;  ///< r in double
@@ -40,7 +41,7 @@ struct alignas(64) CameraSphere {
     std::uint32_t material;  ///< index into Scene::materials
     bool solid;
     bool hidden;   ///< the camera is surely inside, where a back that nobody sees is turned to it
-    bool exactly;  ///< floats cannot tell: an ellipsoid, or the camera is at the surface
+    bool exactly;  ///< floats cannot tell: the camera is at the surface, or an ellipsoid too flat
 };
 static_assert(sizeof(CameraSphere) == 64);
 
@@ -67,11 +68,13 @@ class CameraTables {
     void finish();
 
     std::size_t memory_bytes() const {
-        return spheres.size() * sizeof(CameraSphere) + boxes.size() * sizeof(PixelBox);
+        return (spheres.size() + balls.size()) * sizeof(CameraSphere) +
+               boxes.size() * sizeof(PixelBox);
     }
 
     BigVector<CameraSphere> spheres;  ///< by slot - triangle_end()
-    BigVector<PixelBox> boxes;        ///< the same
+    BigVector<CameraSphere> balls;    ///< of ellipsoids, by slot - sphere_end()
+    BigVector<PixelBox> boxes;        ///< by slot - triangle_end()
 
   private:
     const FastScene& scene_;

@@ -88,7 +88,7 @@ struct Frame::Tables {
           two_passes(listing == ShadowListing::kMeasured ? shadows_pay(scene, resolution)
                                                          : listing != ShadowListing::kAll) {
         camera.emplace(scene, rays, options.isa, options.threads);
-        surfaces.emplace(scene, rays, camera->spheres, options.isa);
+        surfaces.emplace(scene, rays, *camera, options.isa);
         if (two_passes) {
             for_each_quadric_part(scene, options.threads,
                                   [&](QuadricSpan some) { camera->take_quadrics(some); });

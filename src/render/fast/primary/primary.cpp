@@ -316,8 +316,22 @@ class PrimaryTracer {
         const std::size_t count = std::exchange(waiting.count, std::size_t{0});
         if (count == 0) return;
         const CameraSphere* spheres[kBatch];
-        for (std::size_t i = 0; i < count; ++i) spheres[i] = &job_.tables.spheres[waiting.place[i]];
-        conics_.fill(spheres, count, TileRays(job_.camera, tile_.tile_x(t), tile_.tile_y(t)));
+        const BallMap* maps[kBatch];
+        const std::uint32_t sphere_end = job_.scene.sphere_end() - job_.scene.triangle_end();
+        bool mapped = false;
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::uint32_t place = waiting.place[i];
+            spheres[i] = &job_.tables.spheres[place];
+            maps[i] = nullptr;
+            if (place < sphere_end) continue;
+            const CameraSphere& ball = job_.tables.balls[place - sphere_end];
+            if (ball.exactly) continue;
+            spheres[i] = &ball;
+            maps[i] = &job_.scene.ball(job_.scene.triangle_end() + place);
+            mapped = true;
+        }
+        conics_.fill(spheres, mapped ? maps : nullptr, count,
+                     TileRays(job_.camera, tile_.tile_x(t), tile_.tile_y(t)));
         for (std::size_t i = 0; i < count; ++i) {
             const Slot slot = job_.scene.triangle_end() + waiting.place[i];
             std::uint32_t blocks = waiting.blocks[i];

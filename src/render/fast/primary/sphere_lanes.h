@@ -28,8 +28,9 @@ class SphereConics {
   public:
     static constexpr std::size_t kMost = 16;
 
-    HWY_NOINLINE void fill(const CameraSphere* const* spheres, std::size_t count,
-                           const TileRays& rays) {
+    /// `maps`: of those that are ellipsoids' balls, null for the others; null if none is.
+    HWY_NOINLINE void fill(const CameraSphere* const* spheres, const BallMap* const* maps,
+                           std::size_t count, const TileRays& rays) {
         alignas(64) double column[5][kMost];
         for (std::size_t i = 0; i < kMost; ++i) {
             const CameraSphere& s = *spheres[std::min(i, count - 1)];
@@ -37,44 +38,14 @@ class SphereConics {
             column[3][i] = s.exact_radius;
             column[4][i] = s.cross_error;
         }
-        const Vector& right = rays.camera.right;
-        const Vector& down = rays.camera.down;
-        const Doubles f[3] = {Doubles::load(column[0]), Doubles::load(column[1]),
-                              Doubles::load(column[2])};
+        const Triple f = load(column);
         const Doubles r = Doubles::load(column[3]);
-        const Doubles r_square = r * r;
-        const Triple at = cross(f, rays.center);
-        const Triple x = cross(f, right);
-        const Triple y = cross(f, down);
-        const auto gap =
-            [&](const Vector& a, const Vector& b, const Triple& fa, const Triple& fb)
-                HWY_ATTR { return floats_from(r_square * Doubles(dot(a, b)) - dot(fa, fb)); };
-        const Floats two(2.0F);
-        const Floats d = gap(rays.center, rays.center, at, at);
-        const Floats d_x = two * gap(rays.center, right, at, x);
-        const Floats d_y = two * gap(rays.center, down, at, y);
-        const Floats d_xx = gap(right, right, x, x);
-        const Floats d_xy = two * gap(right, down, x, y);
-        const Floats d_yy = gap(down, down, y, y);
-        d.store(constant_);
-        d_x.store(x_);
-        d_y.store(y_);
-        d_xx.store(xx_);
-        d_xy.store(xy_);
-        d_yy.store(yy_);
-        const Floats m(kHalfTile);
-        const Floats size =
-            mul_add(mul_add(abs(d_xx) + abs(d_xy) + abs(d_yy), m, abs(d_x) + abs(d_y)), m, abs(d));
-        set_error(rays, size, floats_from(r_square), floats_from(Doubles::load(column[4])));
-        const Floats b = floats_from(dot(f, rays.center));
-        const Floats b_x = floats_from(dot(f, right));
-        const Floats b_y = floats_from(dot(f, down));
-        b.store(b_);
-        b_x.store(b_x_);
-        b_y.store(b_y_);
-        mul_add(mul_add(abs(b_x) + abs(b_y), m, abs(b)), Floats(8 * kFloatRoundoff),
-                floats_from(Doubles::load(column[4])))
-            .store(b_error_);
+        const Floats cross_error = floats_from(Doubles::load(column[4]));
+        if (maps == nullptr)
+            set(f, r, cross_error, rays.center, rays.camera.right, rays.camera.down);
+        else
+            set(f, r, cross_error, mapped(maps, count, rays.center),
+                mapped(maps, count, rays.camera.right), mapped(maps, count, rays.camera.down));
     }
 
     /// The blocks of `blocks` in which the discriminant of sphere i is not surely negative.
@@ -110,32 +81,93 @@ class SphereConics {
     float toward_error(std::size_t i) const { return b_error_[i]; }
 
   private:
-    using Vector = Vector3;
     struct Triple {
         Doubles at[3];
     };
 
-    static HWY_INLINE Triple cross(const Doubles (&f)[3], const Vector& d) {
-        return {{f[1] * Doubles(d.z) - f[2] * Doubles(d.y),
-                 f[2] * Doubles(d.x) - f[0] * Doubles(d.z),
-                 f[0] * Doubles(d.y) - f[1] * Doubles(d.x)}};
+    template <std::size_t kColumns>
+    static HWY_INLINE Triple load(const double (&column)[kColumns][kMost]) {
+        return {{Doubles::load(column[0]), Doubles::load(column[1]), Doubles::load(column[2])}};
+    }
+    // A direction as each of the balls sees it.
+    static HWY_NOINLINE Triple mapped(const BallMap* const* maps, std::size_t count,
+                                      const Vector3& d) {
+        alignas(64) double column[3][kMost];
+        for (std::size_t i = 0; i < kMost; ++i) {
+            const BallMap* const map = maps[std::min(i, count - 1)];
+            const Vector3 v = map == nullptr ? d : map->to_ball * d;
+            for (int axis = 0; axis < 3; ++axis) column[axis][i] = v[axis];
+        }
+        return load(column);
+    }
+
+    // The functions for directions `center` + x `right` + y `down`: the same for all spheres, or
+    // of each its own.
+    template <typename Direction>
+    HWY_INLINE void set(const Triple& f, const Doubles& r, const Floats& cross_error,
+                        const Direction& center, const Direction& right, const Direction& down) {
+        const Doubles r_square = r * r;
+        const Triple at = cross(f, center);
+        const Triple x = cross(f, right);
+        const Triple y = cross(f, down);
+        const auto gap =
+            [&](const Direction& a, const Direction& b, const Triple& fa, const Triple& fb)
+                HWY_ATTR { return floats_from(r_square * dot(a, b) - dot(fa, fb)); };
+        const Floats two(2.0F);
+        const Floats d = gap(center, center, at, at);
+        const Floats d_x = two * gap(center, right, at, x);
+        const Floats d_y = two * gap(center, down, at, y);
+        const Floats d_xx = gap(right, right, x, x);
+        const Floats d_xy = two * gap(right, down, x, y);
+        const Floats d_yy = gap(down, down, y, y);
+        d.store(constant_);
+        d_x.store(x_);
+        d_y.store(y_);
+        d_xx.store(xx_);
+        d_xy.store(xy_);
+        d_yy.store(yy_);
+        const Floats m(kHalfTile);
+        const Floats size =
+            mul_add(mul_add(abs(d_xx) + abs(d_xy) + abs(d_yy), m, abs(d_x) + abs(d_y)), m, abs(d));
+        const Doubles longest =
+            length(center) + Doubles(kHalfTile) * (length(right) + length(down));
+        set_error(floats_from(longest * longest), size, floats_from(r_square), cross_error);
+        const Floats b = floats_from(dot(f, center));
+        const Floats b_x = floats_from(dot(f, right));
+        const Floats b_y = floats_from(dot(f, down));
+        b.store(b_);
+        b_x.store(b_x_);
+        b_y.store(b_y_);
+        mul_add(mul_add(abs(b_x) + abs(b_y), m, abs(b)), Floats(8 * kFloatRoundoff), cross_error)
+            .store(b_error_);
+    }
+
+    static HWY_INLINE Triple cross(const Triple& f, const Vector3& d) {
+        return {{f.at[1] * Doubles(d.z) - f.at[2] * Doubles(d.y),
+                 f.at[2] * Doubles(d.x) - f.at[0] * Doubles(d.z),
+                 f.at[0] * Doubles(d.y) - f.at[1] * Doubles(d.x)}};
+    }
+    static HWY_INLINE Triple cross(const Triple& f, const Triple& d) {
+        return {{f.at[1] * d.at[2] - f.at[2] * d.at[1], f.at[2] * d.at[0] - f.at[0] * d.at[2],
+                 f.at[0] * d.at[1] - f.at[1] * d.at[0]}};
     }
     static HWY_INLINE Doubles dot(const Triple& a, const Triple& b) {
         return mul_add(a.at[0], b.at[0], mul_add(a.at[1], b.at[1], a.at[2] * b.at[2]));
     }
-    static HWY_INLINE Doubles dot(const Doubles (&f)[3], const Vector& d) {
-        return mul_add(f[0], Doubles(d.x), mul_add(f[1], Doubles(d.y), f[2] * Doubles(d.z)));
+    static HWY_INLINE Doubles dot(const Triple& f, const Vector3& d) {
+        return mul_add(f.at[0], Doubles(d.x),
+                       mul_add(f.at[1], Doubles(d.y), f.at[2] * Doubles(d.z)));
     }
-    static double dot(const Vector& a, const Vector& b) { return nuvo::dot(a, b); }
+    static HWY_INLINE Doubles dot(const Vector3& a, const Vector3& b) { return nuvo::dot(a, b); }
+    static HWY_INLINE Doubles length(const Triple& v) { return sqrt(dot(v, v)); }
+    static HWY_INLINE Doubles length(const Vector3& v) { return nuvo::length(v); }
 
     // `size` bounds the terms of the discriminant: 8 roundings of them. |f x d|^2 is less than
     // size + |d|^2 r^2 =: s; an error c of f x d on each axis adds at most 3.5 c |f x d| + 3 c^2
-    // <= 2 u s + c^2 (1 / u + 3) for any u; and the double stage some 2^-47 of both.
-    HWY_INLINE void set_error(const TileRays& rays, const Floats& size, const Floats& r_square,
+    // <= 2 u s + c^2 (1 / u + 3) for any u; and the double stage some 2^-47 of both, a ball's map
+    // 2^-30. `square` bounds |d|^2.
+    HWY_INLINE void set_error(const Floats& square, const Floats& size, const Floats& r_square,
                               const Floats& cross_error) {
-        const double longest = length(rays.center) +
-                               kHalfTile * (length(rays.camera.right) + length(rays.camera.down));
-        const Floats square(static_cast<float>(longest * longest));
         const Floats s = mul_add(r_square, square, size);
         const Floats c = cross_error * Floats(2 / kRootOfRoundoff);
         const Floats error =

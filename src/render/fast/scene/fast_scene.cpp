@@ -124,6 +124,7 @@ FastScene::FastScene(const Scene& scene, const Primitives& primitives,
     sphere_end_ = triangle_end_ + count(PrimitiveKind::kSphere);
     slot_end_ = sphere_end_ + count(PrimitiveKind::kEllipsoid);
     order_slots(box);
+    map_ellipsoids(threads);
     CompactBuildOptions options;
     options.rule = std::nullopt;
     if (type) options.rule = *type == OctreeType::kUniform ? CutRule::kSpatial : CutRule::kSweep;
@@ -156,6 +157,16 @@ void FastScene::order_slots(const Bounds3& box) {
     for (PrimitiveId id = 0; id < slot_end_; ++id)
         if (slots[id] >= triangle_end_) quadrics_.push_back({id, slots[id]});
     if (document_order) ids_ = {};
+}
+
+void FastScene::map_ellipsoids(int threads) {
+    balls_.resize(slot_end_ - sphere_end_);
+    for_each_part(threads, balls_.size(), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const auto slot = sphere_end_ + static_cast<Slot>(i);
+            balls_[i] = ball_map(std::get<Ellipsoid>(object(id(slot)).shape), frame_);
+        }
+    });
 }
 
 CompactOctree FastScene::octree(const CompactBuildOptions& options) const {

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "fast/scene/ball_map.h"
 #include "fast/scene/local_frame.h"
 #include "fast/scene/octant_tests.h"
 #include "nuvo/math/big_vector.h"
@@ -81,16 +82,19 @@ class FastScene {
         __builtin_prefetch(reinterpret_cast<const char*>(ahead + 1) - 1);
         return then;
     }
+    /// Of the ellipsoid of that slot.
+    const BallMap& ball(Slot slot) const { return balls_[slot - sphere_end_]; }
     /// Corners rounded to nearest, by slot.
     const BigVector<LocalTriangle>& triangles() const { return triangles_; }
     /// Without the octree.
     std::size_t memory_bytes() const {
         return ids_.size() * sizeof(PrimitiveId) + quadrics_.size() * sizeof(QuadricSlot) +
-               triangles_.size() * sizeof(LocalTriangle);
+               triangles_.size() * sizeof(LocalTriangle) + balls_.size() * sizeof(BallMap);
     }
 
   private:
     void order_slots(const Bounds3& box);
+    void map_ellipsoids(int threads);
 
     const Scene& scene_;
     const Primitives& primitives_;
@@ -102,6 +106,7 @@ class FastScene {
     Slot slot_end_ = 0;
     std::vector<PrimitiveId> ids_;  // empty: the same order
     BigVector<QuadricSlot> quadrics_;
+    BigVector<BallMap> balls_;  // of slots from sphere_end_ on
     BigVector<LocalTriangle> triangles_;
     CompactOctree octree_;
     double reach_ = 1;

@@ -330,8 +330,8 @@ SurfaceWord surface_word(const ShadingTables& tables, const Object& object) {
 }
 
 ShadingTables::ShadingTables(const FastScene& scene_in, const CameraRays& camera_in,
-                             const BigVector<CameraSphere>& spheres_in, InstructionSet isa_in)
-    : scene(scene_in), camera(camera_in), isa(isa_in), spheres(spheres_in), rays(camera_in) {
+                             const CameraTables& quadrics_in, InstructionSet isa_in)
+    : scene(scene_in), camera(camera_in), isa(isa_in), quadrics(quadrics_in), rays(camera_in) {
     bound_points(*this);
     add_materials(*this);
     add_mesh_flags(*this);

@@ -124,10 +124,10 @@ struct ShadingBounds {
 };
 
 struct ShadingTables {
-    /// Keeps references; `spheres` are those of CameraTables. What it holds for each triangle
+    /// Keeps references. What it holds for each triangle
     /// fill_tables() fills in.
-    ShadingTables(const FastScene& scene, const CameraRays& camera,
-                  const BigVector<CameraSphere>& spheres, InstructionSet isa);
+    ShadingTables(const FastScene& scene, const CameraRays& camera, const CameraTables& quadrics,
+                  InstructionSet isa);
 
     /// For fill_tables(); by several threads at a time.
     void take(const TriangleChunk& chunk);
@@ -139,7 +139,7 @@ struct ShadingTables {
     const FastScene& scene;
     const CameraRays& camera;
     InstructionSet isa;
-    const BigVector<CameraSphere>& spheres;
+    const CameraTables& quadrics;
     ShadingRays rays;
     std::vector<ShadingMaterial> materials;   ///< without repetition
     std::vector<SurfaceWord> material_words;  ///< by index into Scene::materials

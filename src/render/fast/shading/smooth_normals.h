@@ -105,7 +105,7 @@ class SmoothNormalLanes {
             if (slot < scene_.triangle_end())
                 fill_triangle(slot);
             else
-                fill_round(slot, tables_.spheres[slot - scene_.triangle_end()]);
+                fill_round(slot, tables_.quadrics.spheres[slot - scene_.triangle_end()]);
         }
         if (smooth_bits_ != 0) finish_smooth();
     }
@@ -113,6 +113,7 @@ class SmoothNormalLanes {
   private:
     static constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
     static constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    static constexpr float kSecondRound = 1 + 8 * kFloatRoundoff;
     static constexpr float kSmallEnough = 1.0F / 16;  // 1 / (1 - x) <= 1 + 1.07 x
 
     static double norm1(const Vector3& v) {
@@ -139,28 +140,48 @@ class SmoothNormalLanes {
         Floats(error).store(tile_.point_error + first_, stored);
     }
 
-    // m = f x d / r with f from the centre to the camera; the unit normal is (d x m -+ s d) / d.d
-    // with s^2 = d.d - m.m. (Haines et al. 2019, "Precision improvements for ray/sphere
-    // intersection".) s^2 is formed in double: below q d.d it is noise, and where it is 2^28 times
-    // that its float is good to the last digit. In float |m| <= |d|, so d x m has the roundings of
-    // d and m and 3 more; s has its own, half of its square's and the root's 3.2, with d and the
-    // product 5.2; 1 / d.d, its product and the sum 3: all that is kSphereNormalError in units.
-    HWY_INLINE void fill_sphere(const CameraSphere& sphere) {
-        constexpr double kCrossError = 0x1p-49;  // 8 roundings of f x d
-        constexpr double kDigits = 0x1p28;
-        constexpr double kSideError = 0x1p-48;
-        constexpr float kSphereNormalError = 14 * kFloatRoundoff;
-        const Vector3 from{sphere.from[0], sphere.from[1], sphere.from[2]};
-        const Vector3 f = from * (1 / sphere.exact_radius);
-        const double power = dot(f, f);
-        const bool inside = power < 1;
-        const bool sure = std::fabs(power - 1) > kSideError * (power + 1);
-        const double q = kCrossError * (1 + norm1(f));
-        set_up_rays();
-        const Vector3 first = cross(f, first_direction_);
-        const Vector3 right = cross(f, tables_.camera.right);
-        const Vector3 down = cross(f, tables_.camera.down);
-        Doubles rest = rays_.square;
+    // Directions first + right x + down y of the block's lanes.
+    struct Rays {
+        Vector3 first;
+        Vector3 right;
+        Vector3 down;
+        Floats d[3];
+        Doubles square;  // d.d
+        Floats inverse_square;
+    };
+    static HWY_INLINE void set_up(Rays& rays, const Vector3& first, const Vector3& right,
+                                  const Vector3& down) {
+        rays.first = first;
+        rays.right = right;
+        rays.down = down;
+        rays.square = Doubles(0.0);
+        for (int i = 0; i < 3; ++i) {
+            const Doubles d = affine(first[i], right[i], down[i]);
+            rays.square = mul_add(d, d, rays.square);
+            rays.d[i] = floats_from(d);
+        }
+        rays.inverse_square = reciprocal(floats_from(rays.square));
+    }
+
+    static constexpr double kDigits = 0x1p28;
+    static constexpr float kSphereNormalError = 14 * kFloatRoundoff;
+    struct UnitNormals {
+        Floats n[3];
+        RayMask known;
+    };
+    // m = f x d with f from the centre of the unit sphere to the camera; the unit normal is (d x m
+    // -+ s d) / d.d with s^2 = d.d - m.m. (Haines et al. 2019, "Precision improvements for
+    // ray/sphere intersection".) s^2 is formed in double: below `noise` it is that, and where it is
+    // 2^28 times that its float is good to the last digit. In float |m| <= |d|, so d x m has the
+    // roundings of d and m and 3 more; s has its own, half of its square's and the root's 3.2, with
+    // d and the product 5.2; 1 / d.d, its product and the sum 3: all that is kSphereNormalError in
+    // units.
+    static HWY_INLINE UnitNormals unit_normals(const Vector3& f, bool inside, double noise,
+                                               const Rays& rays) {
+        const Vector3 first = cross(f, rays.first);
+        const Vector3 right = cross(f, rays.right);
+        const Vector3 down = cross(f, rays.down);
+        Doubles rest = rays.square;
         Floats m[3];
         for (int i = 0; i < 3; ++i) {
             const Doubles value = affine(first[i], right[i], down[i]);
@@ -168,45 +189,102 @@ class SmoothNormalLanes {
             m[i] = floats_from(value);
         }
         const Floats square = floats_from(rest);
-        const auto longest = static_cast<double>(tables_.rays.longest);
-        const auto least = static_cast<float>(kDigits * q * longest * longest);
-        const RayMask known = square > Floats(sure ? least : kInfinity);
+        UnitNormals out;
+        out.known = square > Floats(static_cast<float>(kDigits * noise));
         Floats s = square * inverse_sqrt(square);
         if (inside) s = -s;
+        for (int i = 0; i < 3; ++i) {
+            const int next = (i + 1) % 3;
+            const int last = (i + 2) % 3;
+            const Floats across = neg_mul_add(rays.d[last], m[next], rays.d[next] * m[last]);
+            out.n[i] = neg_mul_add(s, rays.d[i], across) * rays.inverse_square;
+        }
+        return out;
+    }
+
+    HWY_INLINE void fill_sphere(const CameraSphere& sphere) {
+        constexpr double kCrossError = 0x1p-49;  // 8 roundings of f x d
+        constexpr double kSideError = 0x1p-48;
+        const Vector3 from{sphere.from[0], sphere.from[1], sphere.from[2]};
+        const Vector3 f = from * (1 / sphere.exact_radius);
+        const double power = dot(f, f);
+        const bool inside = power < 1;
+        const bool sure = std::fabs(power - 1) > kSideError * (power + 1);
+        if (!rays_ready_) {  // the block's once for all its spheres
+            set_up(rays_, first_direction_, tables_.camera.right, tables_.camera.down);
+            rays_ready_ = true;
+        }
+        const auto longest = static_cast<double>(tables_.rays.longest);
+        const double noise = kCrossError * (1 + norm1(f)) * longest * longest;
+        const UnitNormals unit =
+            unit_normals(f, inside, sure ? noise : std::numeric_limits<double>::infinity(), rays_);
         const Point3 center = tables_.camera.origin - from;
         const float radius = sphere.radius;
         const float turn = inside && !sphere.solid ? -1 : 1;
         Floats normal[3];
         Floats point[3];
         for (int i = 0; i < 3; ++i) {
-            const int next = (i + 1) % 3;
-            const int last = (i + 2) % 3;
-            const Floats across = neg_mul_add(rays_.d[last], m[next], rays_.d[next] * m[last]);
-            const Floats n = neg_mul_add(s, rays_.d[i], across) * rays_.inverse_square;
-            point[i] = mul_add(n, Floats(radius), Floats(static_cast<float>(center[i])));
-            normal[i] = n * Floats(turn);
+            point[i] = mul_add(unit.n[i], Floats(radius), Floats(static_cast<float>(center[i])));
+            normal[i] = unit.n[i] * Floats(turn);
         }
-        store_normal(normal, known, Floats(kSphereNormalError));
+        store_normal(normal, unit.known, Floats(kSphereNormalError));
         // P: of centre and sum, which is at most the radius more, and the radius's times the
         // normal's and two more.
         const float error = (kSphereNormalError + 4 * kFloatRoundoff) * radius +
                             3 * kFloatRoundoff * static_cast<float>(length(center - Point3{})) +
                             tables_.bounds.world_rounding;
-        store_point(point, known, error);
+        store_point(point, unit.known, error);
     }
 
-    // The block's rays once for all its spheres.
-    HWY_INLINE void set_up_rays() {
-        if (rays_.ready) return;
-        rays_.ready = true;
-        rays_.square = Doubles(0.0);
-        const Vector3& first = first_direction_;
+    // The unit normal of the ball, taken back: by the map for points, by its transpose for normals,
+    // whose length tells what their error counts. [numerics: ellipsoids as balls]
+    HWY_INLINE void fill_ball(const BallMap& map, const CameraSphere& ball) {
+        constexpr float kUnitError = kSphereNormalError + 2 * kFloatRoundoff;  // and the map's own
+        const Vector3 f = Vector3{ball.from[0], ball.from[1], ball.from[2]} * (1 / map.radius);
+        const bool inside = ball.inverse_power < 0;
+        Rays rays;
+        set_up(rays, map.to_ball * first_direction_, map.to_ball * tables_.camera.right,
+               map.to_ball * tables_.camera.down);
+        // F and G, not below f and d, carry 5 roundings of what the map may stretch; the map's own
+        // error counts by |F x G|, not by |F| |G|.
+        const double longest =
+            length(rays.first) + kBlockSide * (length(rays.right) + length(rays.down));
+        const double noise =
+            longest * longest *
+            (6 * (1 + 2 * max_norm(f)) * (2 * map.stretch * gamma(5) + gamma(8)) + 36 * map.error);
+        const UnitNormals unit = unit_normals(f, inside, noise, rays);
+        const float turn = inside && !ball.solid ? -1 : 1;
+        Floats normal[3];
+        Floats point[3];
+        Floats square(0.0F);
+        double squares = 0;
+        double longest_row = 0;
         for (int i = 0; i < 3; ++i) {
-            const Doubles d = affine(first[i], tables_.camera.right[i], tables_.camera.down[i]);
-            rays_.square = mul_add(d, d, rays_.square);
-            rays_.d[i] = floats_from(d);
+            const Vector3 across = map.to_ball.column(i);
+            const Vector3& along = map.from_unit.row[i];
+            squares += dot(across, across);
+            longest_row = std::fmax(longest_row, norm1(along));
+            normal[i] = mul_add(unit.n[0], Floats(static_cast<float>(across.x)),
+                                mul_add(unit.n[1], Floats(static_cast<float>(across.y)),
+                                        unit.n[2] * Floats(static_cast<float>(across.z))));
+            square = mul_add(normal[i], normal[i], square);
+            point[i] = mul_add(unit.n[0], Floats(static_cast<float>(along.x)),
+                               mul_add(unit.n[1], Floats(static_cast<float>(along.y)),
+                                       mul_add(unit.n[2], Floats(static_cast<float>(along.z)),
+                                               Floats(static_cast<float>(map.center[i])))));
         }
-        rays_.inverse_square = reciprocal(floats_from(rays_.square));
+        const Floats inverse = inverse_sqrt(square);
+        for (Floats& n : normal) n = n * inverse * Floats(turn);
+        // The sum carries the roundings of its matrix and 3 more of each term.
+        const auto size = static_cast<float>(std::sqrt(squares));
+        const Floats relative =
+            inverse * Floats(size * (kUnitError + 4 * kFloatRoundoff) * kSecondRound);
+        const RayMask known = unit.known & (relative < Floats(kSmallEnough));
+        store_normal(normal, known, mul_add(relative, Floats(1.07F), Floats(5 * kFloatRoundoff)));
+        const float error = (kUnitError + 5 * kFloatRoundoff) * static_cast<float>(longest_row) +
+                            3 * kFloatRoundoff * static_cast<float>(max_norm(map.center)) +
+                            tables_.bounds.world_rounding;
+        store_point(point, known, error);
     }
 
     // The primary stage has its normal from the fallback.
@@ -246,10 +324,12 @@ class SmoothNormalLanes {
                 .store(reinterpret_cast<std::int32_t*>(scratch_.word) + first_,
                        mask_for<std::int32_t>(lanes_));
         }
-        if (slot < scene_.sphere_end())
-            fill_sphere(sphere);
-        else
+        if (slot < scene_.sphere_end()) return fill_sphere(sphere);
+        const CameraSphere& ball = tables_.quadrics.balls[slot - scene_.sphere_end()];
+        if (ball.exactly)
             fill_ellipsoid(sphere.solid);
+        else
+            fill_ball(scene_.ball(slot), ball);
     }
 
     // The normal's direction in these lanes; its length waits for those of other triangles.
@@ -339,12 +419,8 @@ class SmoothNormalLanes {
     Floats smooth_error_;
     std::uint32_t smooth_bits_ = 0;
 
-    struct Rays {
-        Floats d[3];
-        Doubles square;  // d.d
-        Floats inverse_square;
-        bool ready = false;
-    } rays_;
+    Rays rays_;
+    bool rays_ready_ = false;
 };
 
 }  // namespace nuvo::HWY_NAMESPACE

@@ -119,24 +119,65 @@ class ShadowBlock {
         const QuadricTest test(item, points_, shadow_rays_, error);
         block(test.blocked());
         const std::uint32_t open = waiting_ & lanes & ~test.free();
-        if (HWY_UNLIKELY(open != 0)) leave_round(context.job, slot, open, item, test, error);
+        if (HWY_LIKELY(open == 0)) return;
+        const FastScene& scene = context.job.tables.scene();
+        if (!item.sphere && scene.ball(slot).sure)
+            test_ball(context, scene.ball(slot), item.side, slot, open, error);
+        else
+            leave_round(context.job, slot, open, item, test, {points_, shadow_rays_, error});
     }
+    // The same where the ellipsoid is a ball. [numerics: ellipsoids as balls]
+    HWY_NOINLINE void test_ball(const ShadowContext& context, const BallMap& map, LightSide side,
+                                Slot slot, std::uint32_t lanes, const Floats& error) {
+        const LightPoint& light = context.table.light;
+        const auto at = [&](int axis)
+                            HWY_ATTR { return Floats(static_cast<float>(map.center[axis])); };
+        const Floats x = points_.x - at(0);
+        const Floats y = points_.y - at(1);
+        const Floats z = points_.z - at(2);
+        const auto row = [&](int i) HWY_ATTR {
+            const Vector3& r = map.to_ball.row[i];
+            return mul_add(
+                x, Floats(static_cast<float>(r.x)),
+                mul_add(y, Floats(static_cast<float>(r.y)), z * Floats(static_cast<float>(r.z))));
+        };
+        const Points points{row(0), row(1), row(2)};
+        const ShadowRays rays(map.to_ball * (light.toward - (map.center - Point3{}) * light.weight),
+                              light.weight, points);
+        const Quadric ball{{0, 0, 0}, static_cast<float>(map.radius)};
+        const QuadricItem item(ball, side);
+        const Floats more = error * Floats(rounded_up(2 * map.stretch * (1 + map.stretch)));
+        const QuadricTest test(item, points, rays, more);
+        block(lanes & test.blocked());
+        lanes &= waiting_ & ~test.free();
+        if (HWY_UNLIKELY(lanes != 0))
+            leave_round(context.job, slot, lanes, item, test, {points, rays, more});
+    }
+    // Points and rays as a quadric is tested against them, and how far these may be off.
+    struct Seen {
+        const Points& points;
+        const ShadowRays& rays;
+        const Floats& error;
+    };
     // Nor does a sphere where the ray to the light leads outwards. Its own points touch it, so they
     // come here unless their shadow rays lead deep into it.
     HWY_NOINLINE void leave_round(ShadowJob& job, Slot slot, std::uint32_t lanes,
                                   const QuadricItem& item, const QuadricTest& test,
-                                  const Floats& error) {
+                                  const Seen& seen) {
+        const Floats& error = seen.error;
         const std::uint32_t of_item = lanes & own(slot);
         std::uint32_t rounded =
             (test.square < Floats(item.shape.radius * item.shape.radius)).bits() & ~of_item;
         if (item.sphere) {
-            const Floats fx = Floats(item.shape.center[0]) - points_.x;
-            const Floats fy = Floats(item.shape.center[1]) - points_.y;
-            const Floats fz = Floats(item.shape.center[2]) - points_.z;
+            const Floats fx = Floats(item.shape.center[0]) - seen.points.x;
+            const Floats fy = Floats(item.shape.center[1]) - seen.points.y;
+            const Floats fz = Floats(item.shape.center[2]) - seen.points.z;
             const Floats along =
-                mul_add(fx, shadow_rays_.x, mul_add(fy, shadow_rays_.y, fz * shadow_rays_.z));
-            // Off by the ray's own error at one end, at most 1 away, and by the point's.
-            const Floats margin = mul_add(shadow_rays_.inverse, error, error);
+                mul_add(fx, seen.rays.x, mul_add(fy, seen.rays.y, fz * seen.rays.z));
+            // Off by the ray's own error at one end, at most 1 away or a ball's radius, and by the
+            // point's.
+            const Floats away(std::fmax(1.0F, item.shape.radius));
+            const Floats margin = mul_add(seen.rays.inverse * away, error, error);
             const std::uint32_t outwards = (along < -margin).bits();
             const std::uint32_t inwards = (along > margin).bits();
             if (item.side == LightSide::kOutside) block(of_item & inwards);

@@ -33,11 +33,14 @@ struct ShadowRays {
     Floats inverse;   ///< of the distance
 
     HWY_INLINE ShadowRays() = default;
-    HWY_INLINE ShadowRays(const LightPoint& light, const Points& p) {
-        const auto weight = static_cast<float>(light.weight);
-        x = neg_mul_add(p.x, Floats(weight), Floats(static_cast<float>(light.toward.x)));
-        y = neg_mul_add(p.y, Floats(weight), Floats(static_cast<float>(light.toward.y)));
-        z = neg_mul_add(p.z, Floats(weight), Floats(static_cast<float>(light.toward.z)));
+    HWY_INLINE ShadowRays(const LightPoint& light, const Points& p)
+        : ShadowRays(light.toward, light.weight, p) {}
+    /// To the point toward / weight.
+    HWY_INLINE ShadowRays(const Vector3& toward, double light_weight, const Points& p) {
+        const auto weight = static_cast<float>(light_weight);
+        x = neg_mul_add(p.x, Floats(weight), Floats(static_cast<float>(toward.x)));
+        y = neg_mul_add(p.y, Floats(weight), Floats(static_cast<float>(toward.y)));
+        z = neg_mul_add(p.z, Floats(weight), Floats(static_cast<float>(toward.z)));
         const Floats square = mul_add(x, x, mul_add(y, y, z * z));
         const Floats inverse_root = Floats(1.0F) / sqrt(square);
         x = x * inverse_root;
@@ -48,8 +51,13 @@ struct ShadowRays {
     }
 };
 
-/// A sphere, or one around an ellipsoid, with what is known of it towards the light.
+/// A sphere, one around an ellipsoid, or an ellipsoid's ball, with what is known of it towards the
+/// light.
 struct QuadricItem {
+    HWY_INLINE QuadricItem(const Quadric& ball, LightSide of_sphere_around)
+        : shape(ball),
+          sphere(true),
+          side(of_sphere_around == LightSide::kOutside ? of_sphere_around : LightSide::kUnknown) {}
     HWY_INLINE QuadricItem(const ShadowTables& tables, const ShadowTable& table, Slot slot)
         : shape(tables.quadric(slot)),
           sphere(slot < tables.scene().sphere_end()),
@@ -58,7 +66,7 @@ struct QuadricItem {
                    : table.quadric_sides[slot - tables.scene().triangle_end()]) {}
 
     const Quadric& shape;
-    bool sphere;
+    bool sphere;  ///< not one around something
     LightSide side;
 };
 

@@ -1,0 +1,245 @@
+// Compiled once for each instruction set by foreach_target.h, as the library's kernels are.
+#define HWY_DISABLED_TARGETS HWY_SSSE3
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "render/conic_bounds_test.cpp"
+#include <hwy/foreach_target.h>
+
+#include "fast/primary/primary_lanes.h"
+#include "fast/primary/sphere_lanes.h"
+
+namespace nuvo {
+#ifndef NUVO_TESTS_RENDER_CONIC_BOUNDS_TEST_CPP_
+#define NUVO_TESTS_RENDER_CONIC_BOUNDS_TEST_CPP_
+/// What a sphere's functions say at some pixels of a tile.
+struct ConicAnswers {
+    static constexpr int kLanes = 16;
+    float discriminant[kLanes], toward[kLanes], low[kLanes], high[kLanes];
+    float error, toward_error;
+    std::uint32_t met;  // blocks
+};
+#endif
+}  // namespace nuvo
+
+HWY_BEFORE_NAMESPACE();
+namespace nuvo::HWY_NAMESPACE {
+
+// At the first block's pixels of a tile; `map` where the sphere is an ellipsoid's ball.
+void ask_conic(const CameraRays& camera, int tile_x, int tile_y, const CameraSphere& sphere,
+               const BallMap* map, ConicAnswers& out) {
+    const TileRays rays(camera, tile_x, tile_y);
+    SphereConics conics;
+    const CameraSphere* const one[] = {&sphere};
+    conics.fill(one, map == nullptr ? nullptr : &map, 1, rays);
+    const Floats x = Floats::load(kOffsets.x[0]);
+    const Floats y = Floats::load(kOffsets.y[0]);
+    const Floats discriminant = conics.discriminant(0, x, y);
+    const SphereHits hits(sphere, conics, 0, discriminant, x, y);
+    discriminant.store(out.discriminant);
+    conics.toward(0, x, y).store(out.toward);
+    hits.low.store(out.low);
+    hits.high.store(out.high);
+    out.error = conics.error(0);
+    out.toward_error = conics.toward_error(0);
+    out.met = conics.met(0, 0xffff);
+}
+
+}  // namespace nuvo::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include <bit>
+#include <cmath>
+
+#include "camera_view.h"
+#include "fast/simd/dispatch.h"
+#include "true_ball.h"
+
+// What spheres' functions say of a tile's pixels against the same in 60 digits, of spheres and of
+// the balls that ellipsoids are mapped to.
+namespace nuvo::testing {
+namespace {
+
+constexpr unsigned kSeed = 20261133;
+
+struct MetBlocks {
+    int truly = 0;
+    int found = 0;
+};
+
+// Whoever has a pixel whose ray meets the sphere.
+void judge_blocks(const View& view, const CameraRays& camera, int tile_x, int tile_y,
+                  const RealVector& f, const Real& r, std::uint32_t met, MetBlocks& blocks) {
+    using Long = Vec3<long double>;
+    const auto rounded = [](const RealVector& v) {
+        return Long(static_cast<long double>(v.x), static_cast<long double>(v.y),
+                    static_cast<long double>(v.z));
+    };
+    const Long from = rounded(f);
+    const auto radius = static_cast<long double>(r);
+    std::uint32_t truly = 0;
+    for (int lane = 0; lane < kTileLanes; ++lane) {
+        const Long d = rounded(view.direction(camera.center_x(tile_x + lane_x(lane)),
+                                              camera.center_y(tile_y + lane_y(lane))));
+        const Long across = cross(from, d);
+        if (dot(d, d) * radius * radius >= dot(across, across)) truly |= 1U << lane / kBlockLanes;
+    }
+    ASSERT_EQ(truly & ~met, 0U);
+    blocks.truly += std::popcount(truly);
+    blocks.found += std::popcount(met);
+}
+
+struct JudgedLanes {
+    int hit = 0;
+    double widest = 0;  // of 1 / t, relative, where the sphere is large in the picture
+};
+
+// A sphere's functions at the first block's pixels: seen at `f` from its centre, in the directions
+// that `direction` says.
+template <typename Direction>
+void judge_lanes(const ConicAnswers& found, const RealVector& f, const Real& r,
+                 const Direction& direction, bool wide, JudgedLanes& lanes) {
+    const Real power = dot(f, f) - r * r;
+    for (int lane = 0; lane < ConicAnswers::kLanes; ++lane) {
+        SCOPED_TRACE("lane " + std::to_string(lane));
+        const RealVector d = direction(lane);
+        const RealVector across = cross(f, d);
+        const Real discriminant = dot(d, d) * r * r - dot(across, across);
+        const Real toward = dot(f, d);
+        ASSERT_LE(abs(Real(found.discriminant[lane]) - discriminant), Real(found.error));
+        ASSERT_LE(abs(Real(found.toward[lane]) - toward), Real(found.toward_error));
+        if (discriminant < 0) continue;
+        const Real root = sqrt(discriminant) * (power < 0 ? -1 : 1);
+        const Real q = (root - toward) / power;
+        ASSERT_LE(Real(found.low[lane]), q);
+        ASSERT_GE(Real(found.high[lane]), q);
+        ++lanes.hit;
+        if (wide && discriminant > toward * toward / 64)
+            lanes.widest = std::max(
+                lanes.widest, static_cast<double>(Real(found.high[lane] - found.low[lane]) / q));
+    }
+}
+
+TEST(ConicBounds, HoldForSpheres) {
+    for (const InstructionSet isa : supported_instruction_sets()) {
+        const auto ask = NUVO_FOR_ISA(isa, ask_conic);
+        std::mt19937_64 random(kSeed + 3);
+        int judged = 0;
+        JudgedLanes lanes;
+        MetBlocks blocks;
+        for (int round = 0; round < 800; ++round) {
+            SCOPED_TRACE("round " + std::to_string(round));
+            View view(random_camera(random), 1);
+            const Point3& eye = view.scene.camera.position;
+            const int tile_x = static_cast<int>(random() % 120) * kTileSide;
+            const int tile_y = static_cast<int>(random() % 67) * kTileSide;
+            // Behind the tile, beside it, tangent to a ray of it, or around the eye.
+            const int kind = round % 4;
+            const Vector3 way = normalized(
+                view.camera.direction(view.camera.center_x(tile_x) + uniform(random, 0, 4),
+                                      view.camera.center_y(tile_y) + uniform(random, 0, 4)));
+            const double far = std::exp2(uniform(random, -2, 6));
+            double radius = std::exp2(uniform(random, -14, 1)) * far;
+            Point3 center = eye + way * far;
+            if (kind == 1) radius = std::exp2(uniform(random, -36, -14)) * far;  // tiny
+            if (kind == 2)
+                center = center + normalized(cross(way, uniform_point(random, 1))) * radius;
+            if (kind == 3) center = eye + uniform_point(random, 0.5) * radius;
+            Object object;
+            object.shape = Sphere{center, radius};
+            view.scene.objects = {object};
+            const Primitives primitives = flatten(view.scene, LeafContent::kPrimitives);
+            const FastScene fast(view.scene, primitives, OctreeType::kUniform, 1);
+            const CameraRays camera(view.scene.camera, kPicture, fast.frame());
+            CameraTables tables(fast, camera, isa);
+            fill_tables(fast, 1, tables);
+            const CameraSphere& sphere = tables.spheres[0];
+            if (sphere.exactly) continue;
+            ConicAnswers found;
+            ask(camera, tile_x, tile_y, sphere, nullptr, found);
+            ++judged;
+            const Real scale = fast.frame().scale;
+            const RealVector f = (RealVector(eye) - RealVector(center)) * scale;
+            const Real r = Real(radius) * scale;
+            const Real gap = sqrt(dot(f, f)) - r;
+            if (gap > 0) {
+                ASSERT_GE(Real(sphere.nearest) * gap, 1) << "round " << round;
+                if (kind == 0) {
+                    EXPECT_LT(Real(sphere.nearest) * gap, 1 + 0x1p-20);
+                }
+            }
+            judge_blocks(view, camera, tile_x, tile_y, f, r, found.met, blocks);
+            judge_lanes(
+                found, f, r,
+                [&](int lane) {
+                    return view.direction(camera.center_x(tile_x + lane_x(lane)),
+                                          camera.center_y(tile_y + lane_y(lane)));
+                },
+                radius < 0.5 * far, lanes);
+        }
+        EXPECT_GT(judged, 700);
+        EXPECT_GT(lanes.hit, 6000);
+        EXPECT_LT(lanes.widest, 0x1p-16);
+        EXPECT_LT(blocks.found, blocks.truly * 1.2) << blocks.truly;
+    }
+}
+
+TEST(ConicBounds, HoldForEllipsoids) {
+    for (const InstructionSet isa : supported_instruction_sets()) {
+        const auto ask = NUVO_FOR_ISA(isa, ask_conic);
+        std::mt19937_64 random(kSeed + 5);
+        int judged = 0;
+        JudgedLanes lanes;
+        for (int round = 0; round < 600; ++round) {
+            SCOPED_TRACE("round " + std::to_string(round));
+            View view(random_camera(random), 1);
+            const Point3& eye = view.scene.camera.position;
+            const int tile_x = static_cast<int>(random() % 120) * kTileSide;
+            const int tile_y = static_cast<int>(random() % 67) * kTileSide;
+            // Behind the tile, or around the eye.
+            const bool around = round % 3 == 0;
+            const Vector3 way = normalized(
+                view.camera.direction(view.camera.center_x(tile_x) + uniform(random, 0, 4),
+                                      view.camera.center_y(tile_y) + uniform(random, 0, 4)));
+            const double far = std::exp2(uniform(random, -2, 6));
+            const double size = std::exp2(uniform(random, around ? 0 : -10, 1)) * far;
+            const Point3 center =
+                around ? eye + uniform_point(random, 0.3) * size : eye + way * far;
+            Object object;
+            object.shape = random_ellipsoid(random, center, size, round % 2 == 0 ? -1 : -5);
+            const auto& ellipsoid = std::get<Ellipsoid>(object.shape);
+            view.scene.objects = {object};
+            const Primitives primitives = flatten(view.scene, LeafContent::kPrimitives);
+            const FastScene fast(view.scene, primitives, OctreeType::kUniform, 1);
+            const CameraRays camera(view.scene.camera, kPicture, fast.frame());
+            CameraTables tables(fast, camera, isa);
+            fill_tables(fast, 1, tables);
+            const CameraSphere& ball = tables.balls[0];
+            if (ball.exactly) continue;
+            const BallMap& map = fast.ball(0);
+            ConicAnswers found;
+            ask(camera, tile_x, tile_y, ball, &map, found);
+            ++judged;
+            const TrueBall exact(ellipsoid, fast.frame().scale, map.radius);
+            const RealVector f =
+                exact((RealVector(eye) - RealVector(center)) * Real(fast.frame().scale));
+            const Real r = Real(map.radius);
+            const Real power = dot(f, f) - r * r;
+            ASSERT_EQ(power < 0, ball.inverse_power < 0) << "round " << round;
+            judge_lanes(
+                found, f, r,
+                [&](int lane) {
+                    return exact(view.direction(camera.center_x(tile_x + lane_x(lane)),
+                                                camera.center_y(tile_y + lane_y(lane))));
+                },
+                !around, lanes);
+        }
+        EXPECT_GT(judged, 500);
+        EXPECT_GT(lanes.hit, 4000);
+        EXPECT_LT(lanes.widest, 0x1p-14);
+    }
+}
+
+}  // namespace
+}  // namespace nuvo::testing
+#endif
