@@ -308,8 +308,8 @@ TEST_F(Program, JsonTellsTheMemoryByPart) {
                 sum += json["tiles"][part].get<double>();
         }
         const double peak = memory["peak_tracing_bytes"];
-        // Large pages and what building leaves: a tenth of a scene of 10^6, more of this one.
-        EXPECT_GT(sum / peak, 0.75) << profile << ": " << memory.dump();
+        // The rest is what building holds for a while, and what lies between blocks in use.
+        EXPECT_GT(sum / peak, 0.6) << profile << ": " << memory.dump();
         EXPECT_LT(sum / peak, 1.1) << profile << ": " << memory.dump();
         EXPECT_LE(memory["peak_reading_bytes"], memory["peak_building_bytes"]);
         EXPECT_LE(memory["peak_building_bytes"], peak);

@@ -175,7 +175,7 @@ struct Lanes : LaneShape<T, N> {
     HWY_INLINE Lanes permuted(const Lanes<std::int32_t, N>& index) const requires(sizeof(T) == 4) {
         Lanes v;
         if constexpr (Shape::kParts == 1) {
-            const auto wrapped = HWY_TARGET == HWY_AVX3
+            const auto wrapped = HWY_TARGET == HWY_AVX3 && !HWY_IS_DEBUG_BUILD
                                      ? index.part[0]  // as the instruction does
                                      : (index & Lanes<std::int32_t, N>(N - 1)).part[0];
             v.part[0] = hn::TableLookupLanes(part[0], hn::IndicesFromVec(Tag(), wrapped));
