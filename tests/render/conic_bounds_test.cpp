@@ -29,8 +29,8 @@ void ask_conic(const CameraRays& camera, int tile_x, int tile_y, const CameraSph
                const BallMap* map, ConicAnswers& out) {
     const TileRays rays(camera, tile_x, tile_y);
     SphereConics conics;
-    const CameraSphere* const one[] = {&sphere};
-    conics.fill(one, map == nullptr ? nullptr : &map, 1, rays);
+    const SeenQuadric one{&sphere, map};
+    conics.fill(&one, 1, rays);
     const Floats x = Floats::load(kOffsets.x[0]);
     const Floats y = Floats::load(kOffsets.y[0]);
     const Floats discriminant = conics.discriminant(0, x, y);
@@ -89,6 +89,30 @@ void judge_blocks(const View& view, const CameraRays& camera, int tile_x, int ti
     blocks.found += std::popcount(met);
 }
 
+// A scene of one quadric, as the camera sees it.
+struct OneQuadric {
+    OneQuadric(Scene& scene, const Shape& shape, InstructionSet isa)
+        : primitives(flatten(with(scene, shape), LeafContent::kPrimitives)),
+          fast(scene, primitives, OctreeType::kUniform, 1),
+          camera(scene.camera, kPicture, fast.frame()),
+          tables(fast, camera, isa) {
+        fill_tables(fast, 1, tables);
+    }
+
+    Primitives primitives;
+    FastScene fast;
+    CameraRays camera;
+    CameraTables tables;
+
+  private:
+    static const Scene& with(Scene& scene, const Shape& shape) {
+        Object object;
+        object.shape = shape;
+        scene.objects = {object};
+        return scene;
+    }
+};
+
 struct JudgedLanes {
     int hit = 0;
     double widest = 0;  // of 1 / t, relative, where the sphere is large in the picture
@@ -145,15 +169,10 @@ TEST(ConicBounds, HoldForSpheres) {
             if (kind == 2)
                 center = center + normalized(cross(way, uniform_point(random, 1))) * radius;
             if (kind == 3) center = eye + uniform_point(random, 0.5) * radius;
-            Object object;
-            object.shape = Sphere{center, radius};
-            view.scene.objects = {object};
-            const Primitives primitives = flatten(view.scene, LeafContent::kPrimitives);
-            const FastScene fast(view.scene, primitives, OctreeType::kUniform, 1);
-            const CameraRays camera(view.scene.camera, kPicture, fast.frame());
-            CameraTables tables(fast, camera, isa);
-            fill_tables(fast, 1, tables);
-            const CameraSphere& sphere = tables.spheres[0];
+            const OneQuadric one(view.scene, Sphere{center, radius}, isa);
+            const FastScene& fast = one.fast;
+            const CameraRays& camera = one.camera;
+            const CameraSphere& sphere = one.tables.spheres[0];
             if (sphere.exactly) continue;
             ConicAnswers found;
             ask(camera, tile_x, tile_y, sphere, nullptr, found);
@@ -205,16 +224,12 @@ TEST(ConicBounds, HoldForEllipsoids) {
             const double size = std::exp2(uniform(random, around ? 0 : -10, 1)) * far;
             const Point3 center =
                 around ? eye + uniform_point(random, 0.3) * size : eye + way * far;
-            Object object;
-            object.shape = random_ellipsoid(random, center, size, round % 2 == 0 ? -1 : -5);
-            const auto& ellipsoid = std::get<Ellipsoid>(object.shape);
-            view.scene.objects = {object};
-            const Primitives primitives = flatten(view.scene, LeafContent::kPrimitives);
-            const FastScene fast(view.scene, primitives, OctreeType::kUniform, 1);
-            const CameraRays camera(view.scene.camera, kPicture, fast.frame());
-            CameraTables tables(fast, camera, isa);
-            fill_tables(fast, 1, tables);
-            const CameraSphere& ball = tables.balls[0];
+            const Ellipsoid ellipsoid =
+                random_ellipsoid(random, center, size, round % 2 == 0 ? -1 : -5);
+            const OneQuadric one(view.scene, ellipsoid, isa);
+            const FastScene& fast = one.fast;
+            const CameraRays& camera = one.camera;
+            const CameraSphere& ball = one.tables.balls[0];
             if (ball.exactly) continue;
             const BallMap& map = fast.ball(0);
             ConicAnswers found;

@@ -45,6 +45,12 @@ struct alignas(64) CameraSphere {
 };
 static_assert(sizeof(CameraSphere) == 64);
 
+/// What the float stages see of a quadric.
+struct SeenQuadric {
+    const CameraSphere* sphere;  ///< its own, of its ball, or the one around it
+    const BallMap* map;          ///< to its ball; null: it is no ball
+};
+
 /// The pixels at whose centres a primitive may be seen, and how near it may be.
 struct alignas(16) PixelBox {
     std::uint32_t columns;  ///< the first | the one after the last << 16
@@ -67,9 +73,16 @@ class CameraTables {
     void take_quadrics(QuadricSpan quadrics);
     void finish();
 
+    SeenQuadric seen(Slot slot) const {
+        if (slot >= scene_.sphere_end()) {
+            const CameraSphere& ball = balls[slot - scene_.sphere_end()];
+            if (!ball.exactly) return {&ball, &scene_.ball(slot)};
+        }
+        return {&spheres[slot - scene_.triangle_end()], nullptr};
+    }
+
     std::size_t memory_bytes() const {
-        return (spheres.size() + balls.size()) * sizeof(CameraSphere) +
-               boxes.size() * sizeof(PixelBox);
+        return vector_bytes(spheres) + vector_bytes(balls) + vector_bytes(boxes);
     }
 
     BigVector<CameraSphere> spheres;  ///< by slot - triangle_end()

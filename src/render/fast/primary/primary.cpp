@@ -315,29 +315,16 @@ class PrimaryTracer {
         WaitingSpheres& waiting = spheres_[t];
         const std::size_t count = std::exchange(waiting.count, std::size_t{0});
         if (count == 0) return;
-        const CameraSphere* spheres[kBatch];
-        const BallMap* maps[kBatch];
-        const std::uint32_t sphere_end = job_.scene.sphere_end() - job_.scene.triangle_end();
-        bool mapped = false;
-        for (std::size_t i = 0; i < count; ++i) {
-            const std::uint32_t place = waiting.place[i];
-            spheres[i] = &job_.tables.spheres[place];
-            maps[i] = nullptr;
-            if (place < sphere_end) continue;
-            const CameraSphere& ball = job_.tables.balls[place - sphere_end];
-            if (ball.exactly) continue;
-            spheres[i] = &ball;
-            maps[i] = &job_.scene.ball(job_.scene.triangle_end() + place);
-            mapped = true;
-        }
-        conics_.fill(spheres, mapped ? maps : nullptr, count,
-                     TileRays(job_.camera, tile_.tile_x(t), tile_.tile_y(t)));
+        SeenQuadric seen[kBatch];
+        for (std::size_t i = 0; i < count; ++i)
+            seen[i] = job_.tables.seen(job_.scene.triangle_end() + waiting.place[i]);
+        conics_.fill(seen, count, TileRays(job_.camera, tile_.tile_x(t), tile_.tile_y(t)));
         for (std::size_t i = 0; i < count; ++i) {
             const Slot slot = job_.scene.triangle_end() + waiting.place[i];
             std::uint32_t blocks = waiting.blocks[i];
             if (std::popcount(blocks) > kFewBlocks) blocks = conics_.met(i, blocks);
             for (; blocks != 0; blocks &= blocks - 1)
-                take_sphere(slot, *spheres[i], i, t, std::countr_zero(blocks));
+                take_sphere(slot, *seen[i].sphere, i, t, std::countr_zero(blocks));
         }
         update_near();
     }

@@ -28,24 +28,25 @@ class SphereConics {
   public:
     static constexpr std::size_t kMost = 16;
 
-    /// `maps`: of those that are ellipsoids' balls, null for the others; null if none is.
-    HWY_NOINLINE void fill(const CameraSphere* const* spheres, const BallMap* const* maps,
-                           std::size_t count, const TileRays& rays) {
+    HWY_NOINLINE void fill(const SeenQuadric* seen, std::size_t count, const TileRays& rays) {
         alignas(64) double column[5][kMost];
+        bool mapped = false;
         for (std::size_t i = 0; i < kMost; ++i) {
-            const CameraSphere& s = *spheres[std::min(i, count - 1)];
+            const SeenQuadric& quadric = seen[std::min(i, count - 1)];
+            const CameraSphere& s = *quadric.sphere;
             for (int axis = 0; axis < 3; ++axis) column[axis][i] = s.from[axis];
             column[3][i] = s.exact_radius;
             column[4][i] = s.cross_error;
+            mapped |= quadric.map != nullptr;
         }
         const Triple f = load(column);
         const Doubles r = Doubles::load(column[3]);
         const Floats cross_error = floats_from(Doubles::load(column[4]));
-        if (maps == nullptr)
-            set(f, r, cross_error, rays.center, rays.camera.right, rays.camera.down);
+        if (mapped)
+            set(f, r, cross_error, as_seen(seen, count, rays.center),
+                as_seen(seen, count, rays.camera.right), as_seen(seen, count, rays.camera.down));
         else
-            set(f, r, cross_error, mapped(maps, count, rays.center),
-                mapped(maps, count, rays.camera.right), mapped(maps, count, rays.camera.down));
+            set(f, r, cross_error, rays.center, rays.camera.right, rays.camera.down);
     }
 
     /// The blocks of `blocks` in which the discriminant of sphere i is not surely negative.
@@ -89,12 +90,12 @@ class SphereConics {
     static HWY_INLINE Triple load(const double (&column)[kColumns][kMost]) {
         return {{Doubles::load(column[0]), Doubles::load(column[1]), Doubles::load(column[2])}};
     }
-    // A direction as each of the balls sees it.
-    static HWY_NOINLINE Triple mapped(const BallMap* const* maps, std::size_t count,
-                                      const Vector3& d) {
+    // A direction as each sphere or ball sees it.
+    static HWY_NOINLINE Triple as_seen(const SeenQuadric* seen, std::size_t count,
+                                       const Vector3& d) {
         alignas(64) double column[3][kMost];
         for (std::size_t i = 0; i < kMost; ++i) {
-            const BallMap* const map = maps[std::min(i, count - 1)];
+            const BallMap* const map = seen[std::min(i, count - 1)].map;
             const Vector3 v = map == nullptr ? d : map->to_ball * d;
             for (int axis = 0; axis < 3; ++axis) column[axis][i] = v[axis];
         }

@@ -88,8 +88,8 @@ class FastScene {
     const BigVector<LocalTriangle>& triangles() const { return triangles_; }
     /// Without the octree.
     std::size_t memory_bytes() const {
-        return ids_.size() * sizeof(PrimitiveId) + quadrics_.size() * sizeof(QuadricSlot) +
-               triangles_.size() * sizeof(LocalTriangle) + balls_.size() * sizeof(BallMap);
+        return vector_bytes(ids_) + vector_bytes(quadrics_) + vector_bytes(triangles_) +
+               vector_bytes(balls_);
     }
 
   private:

@@ -105,7 +105,7 @@ class SmoothNormalLanes {
             if (slot < scene_.triangle_end())
                 fill_triangle(slot);
             else
-                fill_round(slot, tables_.quadrics.spheres[slot - scene_.triangle_end()]);
+                fill_round(slot, tables_.quadrics.seen(slot));
         }
         if (smooth_bits_ != 0) finish_smooth();
     }
@@ -317,19 +317,19 @@ class SmoothNormalLanes {
             add_smooth(tables_.smooth[slot - tables_.smooth_offsets[source.object]]);
     }
 
-    HWY_INLINE void fill_round(Slot slot, const CameraSphere& sphere) {
+    HWY_INLINE void fill_round(Slot slot, const SeenQuadric& seen) {
         if (!tables_.uniform) {
-            const SurfaceWord word = tables_.material_words[sphere.material];
+            const SurfaceWord word = tables_.material_words[seen.sphere->material];
             Ints(static_cast<std::int32_t>(word))
                 .store(reinterpret_cast<std::int32_t*>(scratch_.word) + first_,
                        mask_for<std::int32_t>(lanes_));
         }
-        if (slot < scene_.sphere_end()) return fill_sphere(sphere);
-        const CameraSphere& ball = tables_.quadrics.balls[slot - scene_.sphere_end()];
-        if (ball.exactly)
-            fill_ellipsoid(sphere.solid);
+        if (seen.map != nullptr)
+            fill_ball(*seen.map, *seen.sphere);
+        else if (slot < scene_.sphere_end())
+            fill_sphere(*seen.sphere);
         else
-            fill_ball(scene_.ball(slot), ball);
+            fill_ellipsoid(seen.sphere->solid);
     }
 
     // The normal's direction in these lanes; its length waits for those of other triangles.
