@@ -1,5 +1,5 @@
 # [numerics: edge bound] detail::edge_error_bound() and detail::line_test() in
-# include/nuvo/geometry/predicates.h; PlaneSide::rounded() in src/render/fast/shadow/free_pairs.cpp.
+# include/nuvo/geometry/predicates.h.
 #
 # One of the six terms d_i C_j B_k of an edge function, in units of |d| m^2, where |direction| <= |d|
 # and the computed |C|, |B| <= m are largest components (so all three are within 1 here). A rounded

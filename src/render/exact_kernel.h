@@ -25,6 +25,11 @@ inline Bounds3 triangle_bounds(const Scene& scene, const Primitives& primitives)
     return all;
 }
 
+inline LightPlace place_of(const Light& light) {
+    if (light.kind == Light::Kind::kDirectional) return {-light.direction, true};
+    return {light.location, false};
+}
+
 /// Every decision as exact arithmetic on the scene's doubles makes it (docs/numerics.md). `Store`
 /// finds primitives by their id (primitive_store.h).
 template <typename Store>
@@ -50,6 +55,8 @@ class ExactKernelOf {
         double origin_error;
         std::optional<PrimitiveId> from;  // the primitive that is lit; none: the bias has left it
         const Light* light;
+        // Another way from the same point: what blocks one blocks the point's light. [way_starts()]
+        std::optional<WayStart> across;
     };
     static constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -111,13 +118,20 @@ class ExactKernelOf {
     }
 
     Shadow shadow(const Surface& surface, const Light& light) const {
-        const Point3 origin = bias_ ? surface.point + surface.normal * *bias_ : surface.point;
-        const double error = bias_ ? 0 : surface.error;
-        const auto from = bias_ ? std::nullopt : std::optional<PrimitiveId>(surface.primitive);
-        if (light.kind == Light::Kind::kDirectional)
-            return {ExactRay(Ray{origin, -light.direction}, triangles_), kInfinity, error, from,
-                    &light};
-        return {ExactRay::between(origin, light.location, triangles_), 1, error, from, &light};
+        if (bias_) return shadow({surface.point + surface.normal * *bias_, 0}, std::nullopt, light);
+        WayStarts starts{{surface.point, surface.error}, std::nullopt};
+        with_triangle(surface.primitive, [&](const Triangle& lit) {
+            starts = way_starts(starts.first, lit, place_of(light), counts_);
+            return true;
+        });
+        Shadow found = shadow(starts.first, surface.primitive, light);
+        found.across = starts.second;
+        return found;
+    }
+    /// The other way of a shadow that has one.
+    std::optional<Shadow> across(const Shadow& of) const {
+        if (!of.across) return std::nullopt;
+        return shadow(*of.across, of.from, *of.light);
     }
 
     bool blocks(const Shadow& shadow, PrimitiveRange range) const {
@@ -158,13 +172,10 @@ class ExactKernelOf {
     }
     /// Whether `other` can be left out on all ways from the lit triangle to the light.
     bool leaves_in_light(PrimitiveId other, const Shadow& shadow) const {
-        const Light& light = *shadow.light;
-        const bool endless = light.kind == Light::Kind::kDirectional;
-        return with_triangle(*shadow.from, [&](const Triangle& lit) {
-            return with_triangle(other, [&](const Triangle& o) {
-                return nuvo::leaves_in_light(o, lit, endless ? -light.direction : light.location,
-                                             endless, counts_);
-            });
+        return with_triangle(other, [&](const Triangle& o) {
+            return stays_behind(o, shadow) || with_triangle(*shadow.from, [&](const Triangle& lit) {
+                       return nuvo::leaves_in_light(o, lit, place_of(*shadow.light), counts_);
+                   });
         });
     }
     /// Whether the primitive that is lit stands in its own light.
@@ -207,6 +218,29 @@ class ExactKernelOf {
         });
     }
 
+    Shadow shadow(const WayStart& start, std::optional<PrimitiveId> from,
+                  const Light& light) const {
+        if (light.kind == Light::Kind::kDirectional)
+            return {ExactRay(Ray{start.point, -light.direction}, triangles_),
+                    kInfinity,
+                    start.error,
+                    from,
+                    &light,
+                    std::nullopt};
+        return {ExactRay::between(start.point, light.location, triangles_),
+                1,
+                start.error,
+                from,
+                &light,
+                std::nullopt};
+    }
+
+    bool stays_behind(const Triangle& other, const Shadow& shadow) const {
+        return shadow.from && with_triangle(*shadow.from, [&](const Triangle& lit) {
+                   return nuvo::stays_behind(other, lit, place_of(*shadow.light), counts_);
+               });
+    }
+
     // Where a shadow ray meets a primitive that blocks it.
     double blocking_t(const ExactRay& ray, PrimitiveId id) const {
         return store_.visit(id, [&](const auto& primitive) {
@@ -229,8 +263,10 @@ class ExactKernelOf {
         return store_.visit_faces(id, [&](const auto& primitive, Faces faces) {
             if (!faces.cast_shadows) return false;
             if constexpr (std::is_same_v<std::decay_t<decltype(primitive)>, Triangle>)
-                return !self && nuvo::blocks(shadow.ray, end, shadow.origin_error, primitive,
-                                             counts_, faces.sides);
+                return !self &&
+                       nuvo::blocks(shadow.ray, end, shadow.origin_error, primitive, counts_,
+                                    faces.sides) &&
+                       !stays_behind(primitive, shadow);
             else
                 return nuvo::blocks(shadow.ray, end, shadow.origin_error, primitive, self, counts_,
                                     faces.sides);

@@ -63,7 +63,11 @@ class Tracer {
     template <typename Surface>
     bool blocked(const Surface& surface, const Light& light) {
         ++shadow_rays_;
-        return search_.occluded(kernel_.shadow(surface, light));
+        const auto shadow = kernel_.shadow(surface, light);
+        if (search_.occluded(shadow)) return true;
+        if constexpr (requires { kernel_.across(shadow); })
+            if (const auto other = kernel_.across(shadow)) return search_.occluded(*other);
+        return false;
     }
 
     const Scene& scene_;

@@ -155,6 +155,102 @@ TEST(Shadow, LightOnASurfaceIsNotBlockedByIt) {
         << "both inside";
 }
 
+/// A lit triangle, another that shares no corner, one or an edge with it, and a light, in the lit
+/// plane in a third of all cases. What is asked of them is told by rationals.
+struct LitCase {
+    LitCase(Random& random, int i) {
+        const auto corner = [&] { return i % 2 == 0 ? random.lattice() : random.vector(); };
+        lit = {corner(), corner(), corner()};
+        other = {corner(), corner(), corner()};
+        if (i % 3 > 0) other.a = lit.b;
+        if (i % 3 > 1) other.b = lit.a;
+        light = {corner() * 4, random.below(2) == 0};
+        if (random.below(3) == 0)  // exact on the lattice
+            light.at = (lit.b - lit.a) * random.below(5) + (lit.c - lit.a) * random.below(5) +
+                       (light.endless ? Vector3{} : lit.a);
+        a = oracle::rational(lit.a);
+        e1 = oracle::rational(lit.b) - a;
+        e2 = oracle::rational(lit.c) - a;
+        to = oracle::rational(light.at);
+    }
+    bool sound() const {
+        return dot(cross(e1, e2), cross(e1, e2)) != 0 && !(light.at == Vector3{});
+    }
+    int side(const Point3& p) const { return dot(cross(e1, e2), oracle::rational(p) - a).sign(); }
+    int side_of_light() const { return dot(cross(e1, e2), light.endless ? to : to - a).sign(); }
+
+    Triangle lit;
+    Triangle other;
+    LightPlace light;
+    oracle::RationalVector a, e1, e2, to;
+};
+
+TEST(Shadow, WhatStaysBehindTheLitPlaneBlocksNoTrueWay) {
+    Random random(kSeed + 6, cases::kPlacements[1]);
+    StageCounts counts;
+    int behind = 0;
+    for (int i = 0; i < 4000; ++i) {
+        SCOPED_TRACE(::testing::Message() << "seed " << kSeed + 6 << ", case " << i);
+        const LitCase c(random, i);
+        if (!c.sound()) continue;
+        bool stays = c.side_of_light() != 0;
+        for (const Point3& p : {c.other.a, c.other.b, c.other.c})
+            stays = stays && c.side_of_light() * c.side(p) <= 0;
+        ASSERT_EQ(stays_behind(c.other, c.lit, c.light, counts), stays);
+        if (!stays) continue;
+        ++behind;
+        for (int k = 0; k < 8; ++k) {
+            const oracle::Rational u(random.below(64), 128);
+            const oracle::Rational v(random.below(64), 128);
+            const oracle::RationalVector point = c.a + c.e1 * u + c.e2 * v;
+            const oracle::ExactLine way{point, c.light.endless ? c.to : c.to - point};
+            const auto met = oracle::plane_hit(way, c.other);
+            EXPECT_FALSE(met && met->inside() && met->t > 0 && (c.light.endless || met->t < 1));
+        }
+    }
+    EXPECT_GT(behind, 500);
+}
+
+// Rounded points near the lit plane, and lights in it or up to 1e-16 beside it.
+TEST(Shadow, WaysAlongTheLitPlaneStartOnTheLightsSide) {
+    Random random(kSeed + 7, cases::kPlacements[1]);
+    StageCounts counts;
+    int moved = 0;
+    int two = 0;
+    for (int i = 0; i < 4000; ++i) {
+        SCOPED_TRACE(::testing::Message() << "seed " << kSeed + 7 << ", case " << i);
+        LitCase c(random, i);
+        if (!c.sound()) continue;
+        if (random.below(2) == 0)
+            c.light.at.x += random.uniform(-1, 1) * 0x1p-52 * max_norm(c.light.at);
+        c.to = oracle::rational(c.light.at);
+        const Point3 p = c.lit.a + (c.lit.b - c.lit.a) * random.uniform(0.1, 0.5) +
+                         (c.lit.c - c.lit.a) * random.uniform(0.1, 0.5);
+        const WayStart rounded{p, 16 * kUnitRoundoff * (max_norm(p) + 1)};
+        const WayStarts starts = way_starts(rounded, c.lit, c.light, counts);
+        const int side = c.side(p);
+        const bool stays = starts.first.point == p;
+        if (stays) {
+            EXPECT_EQ(starts.first.error, rounded.error);
+        } else {
+            EXPECT_EQ(side, -c.side_of_light());
+            EXPECT_EQ(c.side(starts.first.point), c.side_of_light());
+            ++moved;
+        }
+        if (starts.second) {
+            EXPECT_TRUE(stays);
+            EXPECT_EQ(c.side_of_light(), 0);
+            EXPECT_EQ(c.side(starts.second->point), -side);
+            ++two;
+        }
+        for (const WayStart& start : {starts.first, starts.second.value_or(starts.first)})
+            EXPECT_LE(max_norm(start.point - p) + rounded.error, start.error);
+        EXPECT_EQ(starts.second.has_value(), c.side_of_light() == 0 && side != 0);
+    }
+    EXPECT_GT(moved, 100);
+    EXPECT_GT(two, 300);
+}
+
 TEST(Shadow, TheTerminatorSplitsASphere) {
     // A hit sphere blocks its own light exactly on the far side of the terminator.
     Random random(kSeed + 4, cases::kPlacements[1]);

@@ -142,7 +142,7 @@ TEST(Crowds, WhatIsSaidOfAllRaysHoldsForEach) {
         const Point3 eye = corner() * 3;
         const Point3 light = corner() * 2;
         const bool hides_it = hides(front, eye, other, false, counts);
-        const bool leaves_it = leaves_in_light(other, front, light, false, counts);
+        const bool leaves_it = leaves_in_light(other, front, {light, false}, counts);
         hidden += hides_it;
         free_ways += leaves_it;
         for (int k = 0; k < 8; ++k) {

@@ -189,6 +189,55 @@ TEST(BackFaces, TheSideOfASolidThatIsTurnedAwayStaysDark) {
                 kBlack);
 }
 
+// A light grazes faces of an octahedron: exactly, or turned with it, so that rounded corners
+// bend the faces to or from it. Whatever rounds their points, a face is lit as if it stood alone,
+// or in the shadow of its neighbours.
+TEST(BackFaces, OfAnOctahedronThatALightGrazesAreLitAllOrNone) {
+    const auto picture_of = [](const std::string& turned, const std::string& index) {
+        return picture(viewpoint("1.5 0.1 4") +
+                       under(turned,
+                             "<DirectionalLight direction='1 0 -1'/><Shape>"
+                             "<Appearance><Material diffuseColor='1 1 1'/></Appearance>"
+                             "<IndexedTriangleSet index='" +
+                                 index +
+                                 "'><Coordinate point='1 0 0 0 0 1 -1 0 0 0 1 0 0 -1 0 "
+                                 "0 0 -1'/><Normal vector='1 0 0 0 0 1 -1 0 0 0 1 0 0 "
+                                 "-1 0 0 0 -1'/></IndexedTriangleSet></Shape>"));
+    };
+    const std::vector<std::string> grazed = {"0 1 4", "3 1 0"};
+    const std::string others = " 2 4 1 1 3 2 0 5 4 3 5 0 5 4 2 5 2 3";
+    int dark_faces = 0;
+    int lit_faces = 0;
+    for (const char* turned :
+         {"", "rotation='0.3 0.5 0.8 0.7'", "rotation='0 1 0 0.1'", "rotation='1 2 -1 0.3'"}) {
+        std::string all = others;
+        for (const std::string& face : grazed) all += " " + face;
+        const Image solid = picture_of(turned, all);
+        for (const std::string& face : grazed) {
+            const Image alone = picture_of(turned, face);
+            int dark = 0;
+            int lit = 0;
+            for (int y = 0; y < kSize.height; ++y)
+                for (int x = 0; x < kSize.width; ++x) {
+                    const Rgb8 color = alone.at(x, y);
+                    if (color == kBlue || color == kBlack) continue;
+                    const Rgb8 found = solid.at(x, y);
+                    dark += found == kBlack;
+                    lit += found == color;
+                    EXPECT_TRUE(found == kBlack || found == color) << x << ' ' << y;
+                }
+            EXPECT_TRUE(dark == 0 || lit == 0) << turned << face << dark << ' ' << lit;
+            if (dark + lit == 0) continue;
+            if (turned == std::string()) {
+                EXPECT_EQ(lit, 0) << "edges belong to what they bound";
+            }
+            (dark > 0 ? dark_faces : lit_faces) += 1;
+        }
+    }
+    EXPECT_GT(dark_faces, 2);
+    EXPECT_GT(lit_faces, 0);
+}
+
 // Seen from above through the top, the floor of a box that is wound inwards is lit by a lamp above.
 TEST(BackFaces, OfABoxWoundInwardsShowItsLitInside) {
     const Image image = picture(

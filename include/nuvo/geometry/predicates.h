@@ -372,9 +372,39 @@ bool blocks(const ExactRay& shadow, double end, double origin_error, const Ellip
 /// wins where they are met together, at the same t. False: not known.
 bool hides(const Triangle& front, const Point3& eye, const Triangle& other, bool wins_ties,
            StageCounts& counts);
-/// `other` blocks no way from a rounded point of `lit` to `light`, which is a point, or a direction
-/// where `endless`: it leaves all of `lit` on the light's side. False: not known.
-bool leaves_in_light(const Triangle& other, const Triangle& lit, const Vector3& light, bool endless,
+/// Where a light is.
+struct LightPlace {
+    Vector3 at;    ///< a point; endless: the direction to the light
+    bool endless;  ///< infinitely far away
+};
+/// `other` blocks no way from a rounded point of `lit` to the light: it leaves all of `lit` on the
+/// light's side. False: not known.
+bool leaves_in_light(const Triangle& other, const Triangle& lit, const LightPlace& light,
+                     StageCounts& counts);
+/// `other` blocks no way from a true point of `lit` to the light, because it has no part on the
+/// light's side of the plane of `lit`, in which the light does not lie.
+bool stays_behind(const Triangle& other, const Triangle& lit, const LightPlace& light,
+                  StageCounts& counts);
+
+/// Whether a light that is `distance` away (largest component; of a direction its own) from the
+/// points of `lit` grazes its plane: ways rise by at most a millionth of their length. Computed in
+/// double, on the scaled normal.
+bool grazes(const Triangle& lit, const LightPlace& light, double distance);
+
+/// Where ways from a lit point start.
+struct WayStart {
+    Point3 point;
+    double error;  ///< bounds |point - true point| in each component
+};
+/// Starts of the ways from a rounded point of `lit` to the light: the point itself, but where the
+/// light grazes the plane of `lit`. There the way runs along the plane, and on which side would be
+/// the rounding's choice: it starts on the light's side; on both if the light lies in the plane, in
+/// which a way meets the edges of all that ends there. What one of them meets blocks.
+struct WayStarts {
+    WayStart first;
+    std::optional<WayStart> second;
+};
+WayStarts way_starts(const WayStart& rounded, const Triangle& lit, const LightPlace& light,
                      StageCounts& counts);
 
 }  // namespace nuvo

@@ -98,14 +98,18 @@ class ShadowTracer {
 
     // The walk of a single point, in double.
     HWY_NOINLINE void walk_alone(std::uint32_t lane) {
-        const ShadowTables& tables = context_.job.tables;
-        const FastScene& scene = tables.scene();
         const auto ray = shadow_ray(lane);
+        const auto other = fallback_.across(ray);
+        if (walk_along(ray, lane) || (other && walk_along(*other, lane))) block_lane(lane);
+    }
+    template <typename Shadow>
+    bool walk_along(const Shadow& ray, std::uint32_t lane) {
+        const FastScene& scene = context_.job.tables.scene();
         Mailbox& mailbox = context_.job.mailbox;
         mailbox.start();
         // The lit primitive, whose root rounding may lose, is asked in any case.
         const Slot lit = tile_.slot[lane];
-        bool blocked = fallback_.blocks(ray, lit);
+        if (fallback_.blocks(ray, lit)) return true;
         mailbox.seen(lit);
         const auto leaf = [&](const std::uint32_t* items, std::uint32_t count) {
             if (!fallback_.may_visit()) return true;
@@ -119,9 +123,7 @@ class ShadowTracer {
             }
             return false;
         };
-        if (!blocked)
-            blocked = SegmentWalk(ray.ray, ray.end, scene.frame()).any(scene.octree(), leaf);
-        if (blocked) block_lane(lane);
+        return SegmentWalk(ray.ray, ray.end, scene.frame()).any(scene.octree(), leaf);
     }
     void block_lane(std::uint32_t lane) {
         blocks_[lane / kBlockLanes].block(1U << lane % kBlockLanes);
@@ -153,8 +155,11 @@ class ShadowTracer {
                 walk_alone(lane);
             } else if (waiting) {
                 const auto ray = shadow_ray(lane);
-                if (std::any_of(at, end,
-                                [&](const auto& o) { return fallback_.blocks(ray, o.item); }))
+                const auto other = fallback_.across(ray);
+                if (std::any_of(at, end, [&](const auto& o) {
+                        return fallback_.blocks(ray, o.item) ||
+                               (other && fallback_.blocks(*other, o.item));
+                    }))
                     block_lane(lane);
             }
             at = end;

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "fast/shadow/free_pairs.h"
+#include "fast/shadow/pair_shadows.h"
 #include "fast/shadow/shadow_tables.h"
 #include "fast/shadow/walk_planes.h"
 #include "fast/tile/exact_fallback.h"
@@ -30,7 +30,7 @@ struct ShadowJob {
     bool new_points;  ///< others than those for which items were listed
     Mailbox mailbox{};
     std::vector<OpenShadow> open{};
-    FreePairs free_pairs{tables.scene()};
+    PairShadows pair_shadows{tables.scene()};
     WalkPlanes walk_planes{tables};
 };
 

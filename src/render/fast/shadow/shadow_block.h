@@ -93,22 +93,32 @@ class ShadowBlock {
         const Floats depth = hidden(planes, points_);
         block((depth > plane_error_).bits());
         const std::uint32_t open = waiting_ & lanes & ~(depth < -plane_error_).bits();
-        if (HWY_UNLIKELY(open != 0)) leave_triangle(context, slot_of(), open, depth > Floats(0.0F));
+        if (HWY_UNLIKELY(open != 0))
+            leave_triangle(context, planes, slot_of(), open, depth > Floats(0.0F));
     }
-    // A triangle does not hide its own points, nor those of one that lies on the light's side of
-    // it.
-    HWY_NOINLINE void leave_triangle(const ShadowContext& context, Slot slot, std::uint32_t lanes,
-                                     const RayMask& rounded) {
+    // A triangle does not hide its own points; of those of other triangles it is asked what it does
+    // to all of them.
+    HWY_NOINLINE void leave_triangle(const ShadowContext& context, const ShadowPlanes& planes,
+                                     Slot slot, std::uint32_t lanes, const RayMask& rounded) {
         lanes &= ~own(slot);
         for (std::uint32_t rest = lanes; rest != 0;) {
             const auto lit = static_cast<Slot>(slots_[std::countr_zero(rest)]);
             const std::uint32_t same = own(lit) & rest;
             rest &= ~same;
-            if (lit < context.job.tables.scene().triangle_end() &&
-                context.job.free_pairs.free(lit, slot, context.light))
-                lanes &= ~same;
+            if (lit >= context.job.tables.scene().triangle_end()) continue;
+            const PairShadow pair = context.job.pair_shadows.of(lit, slot, context.light);
+            if (pair == PairShadow::kOpen) continue;
+            lanes &= ~same;
+            if (pair == PairShadow::kNone) continue;
+            const Floats depth = hidden_past(edge_of(pair), planes, points_);
+            block(same & (depth > plane_error_).bits());
+            lanes |= same & waiting_ & ~(depth < -plane_error_).bits();
         }
         put_aside(context.job, slot, lanes, rounded.bits());
+    }
+    // Whose plane is left out; as ShadowPlanes has them.
+    static int edge_of(PairShadow pair) {
+        return static_cast<int>(pair) - static_cast<int>(PairShadow::kPastEdgeAB);
     }
 
     HWY_INLINE void test_round(const ShadowContext& context, Slot slot, std::uint32_t lanes) {

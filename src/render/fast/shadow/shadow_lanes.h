@@ -17,13 +17,19 @@
 HWY_BEFORE_NAMESPACE();
 namespace nuvo::HWY_NAMESPACE {
 
+HWY_INLINE Floats plane_at(const float (&n)[4], const Points& p) {
+    return mul_add(p.x, Floats(n[0]),
+                   mul_add(p.y, Floats(n[1]), mul_add(p.z, Floats(n[2]), Floats(n[3]))));
+}
 /// The least of the four functions of `t` at the points.
 HWY_INLINE Floats hidden(const ShadowPlanes& t, const Points& p) {
-    const auto at = [&](const float(&n)[4]) HWY_ATTR {
-        return mul_add(p.x, Floats(n[0]),
-                       mul_add(p.y, Floats(n[1]), mul_add(p.z, Floats(n[2]), Floats(n[3]))));
-    };
-    return min(min(at(t.plane[0]), at(t.plane[1])), min(at(t.plane[2]), at(t.plane[3])));
+    return min(min(plane_at(t.plane[0], p), plane_at(t.plane[1], p)),
+               min(plane_at(t.plane[2], p), plane_at(t.plane[3], p)));
+}
+/// The least of those but the plane through one edge.
+HWY_INLINE Floats hidden_past(int edge, const ShadowPlanes& t, const Points& p) {
+    return min(min(plane_at(t.plane[(edge + 1) % 3], p), plane_at(t.plane[(edge + 2) % 3], p)),
+               plane_at(t.plane[3], p));
 }
 
 /// Shadow rays from points to a light.

@@ -43,6 +43,8 @@ class ExactFallback {
 
     /// The shadow ray to a light from the point that pixel (x, y) shows on `lit`.
     Kernel::Shadow shadow_ray(int x, int y, Slot lit, std::size_t light) const;
+    /// The other way of the same point, where it has one.
+    auto across(const Kernel::Shadow& ray) const { return kernel_.across(ray); }
     /// Whether `occluder` stands on that ray. Most that floats leave open does not even come near,
     /// which a box tells at less cost.
     bool blocks(const Kernel::Shadow& ray, Slot occluder) const {
