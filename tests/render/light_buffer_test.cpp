@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <random>
@@ -166,17 +167,47 @@ TEST(LightBuffer, ListsEveryItemThatBlocksAPointKnownWellEnough) {
     EXPECT_GT(blocked[true], 1000);
 }
 
-TEST(LightBuffer, ListsFewItemsWhereNoneIsLarge) {
-    // 1,000 spheres of radius 0.1 two units apart: a light along an axis sees 100 stacks of 10.
+/// Stacks of so many spheres, 10 x 10 of them two units apart, and a light along them.
+Scene stacks(int of, double radius) {
     Scene scene;
     scene.materials.emplace_back();
-    for (int i = 0; i < 1000; ++i) {
+    for (int i = 0; i < 100 * of; ++i) {
         Object object;
-        object.shape = Sphere{{2.0 * (i % 10), 2.0 * (i / 10 % 10), 2.0 * (i / 100)}, 0.1};
+        object.shape = Sphere{{2.0 * (i % 10), 2.0 * (i / 10 % 10), 2.0 * (i / 100)}, radius};
         scene.objects.push_back(object);
     }
     scene.lights.resize(1);
     scene.lights[0].direction = {0, 0, -1};
+    return scene;
+}
+
+TEST(LightBuffer, LongListsBeginNearTheLight) {
+    for (const int of : {5, 500}) {
+        const Scene scene = stacks(of, 1.2);
+        const Primitives primitives = flatten(scene, LeafContent::kPrimitives);
+        const FastScene fast(scene, primitives, OctreeType::kUniform, 1);
+        ShadowTables tables(fast, resolved(InstructionSet::kBest));
+        fill_tables(fast, 1, tables);
+        const LightBuffer& buffer = tables.table(0).buffer;
+        ASSERT_TRUE(buffer.usable());
+        EXPECT_EQ(buffer.near_first, of == 500);
+        if (!buffer.near_first) continue;
+        std::size_t longest = 0;
+        for (std::size_t cell = 0; cell + 2 < buffer.starts.size(); ++cell) {
+            const auto first = buffer.entries.begin() + buffer.starts[cell];
+            const auto last = buffer.entries.begin() + buffer.starts[cell + 1];
+            EXPECT_TRUE(std::is_sorted(first, last, [](const LightEntry& a, const LightEntry& b) {
+                return a.near < b.near;
+            }));
+            longest = std::max(longest, static_cast<std::size_t>(last - first));
+        }
+        EXPECT_GE(longest, 500U);
+    }
+}
+
+TEST(LightBuffer, ListsFewItemsWhereNoneIsLarge) {
+    // Of radius 0.1: the light sees 100 stacks of 10.
+    const Scene scene = stacks(10, 0.1);
     const Primitives primitives = flatten(scene, LeafContent::kPrimitives);
     const FastScene fast(scene, primitives, OctreeType::kUniform, 1);
     ShadowTables tables(fast, resolved(InstructionSet::kBest));

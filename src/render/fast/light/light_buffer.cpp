@@ -56,6 +56,8 @@ class LightBufferMaker {
     static constexpr double kMostCells = 2;
     // Where an entry's list is longer than this on average the octree is faster.
     static constexpr double kLongLists = 4096;
+    // And where it is longer than this they are sorted.
+    static constexpr double kListsToSort = 128;
 
     // What points may be off, in the size of the middle item, and in that of points.
     static constexpr double kErrorShare = 0x1p-4;
@@ -227,7 +229,8 @@ class LightBufferMaker {
             for (std::uint32_t x = 0; x < record.columns; ++x) use(first + x);
     }
 
-    // Makes starts[c + 1] the start of cell c; false: its lists are too long.
+    // Makes starts[c + 1] the start of cell c; false: its lists are too long. Where they are long,
+    // what is near the light comes first: it blocks most.
     bool add_up() {
         double squares = 0;
         for (std::size_t cell = 0; cell < cells_; ++cell) {
@@ -235,26 +238,40 @@ class LightBufferMaker {
             squares += length * length;
             out_.starts[cell + 2] += out_.starts[cell + 1];
         }
-        if (squares <= kLongLists * out_.starts[cells_ + 1]) return true;
-        out_.grids.clear();
-        return false;
+        const double entries = out_.starts[cells_ + 1];
+        if (squares > kLongLists * entries) {
+            out_.grids.clear();
+            return false;
+        }
+        out_.near_first = squares > kListsToSort * entries;
+        return true;
     }
     // starts[c + 1] is where the next entry of cell c goes, until it is where c + 1 starts.
     void fill() {
         constexpr std::size_t kReadAhead = 16;
         out_.entries.resize(out_.starts[cells_ + 1] + kReadAhead);
-        for (std::size_t i = 0; i < used_; ++i) {
-            const Record& record = records_[i];
+        const auto put = [&](const Record& record) {
             for_each_cell(record, [&](std::uint32_t cell) {
                 out_.entries[out_.starts[cell + 1]++] = record.entry;
             });
-        }
+        };
+        if (out_.near_first)
+            for (const auto& [near, i] : by_nearness()) put(records_[i]);
+        else
+            std::for_each_n(records_.begin(), used_, put);
         const LightGrid coarsest = out_.grids.back();
         std::erase_if(out_.grids, [&](const LightGrid& grid) {
             return out_.starts[grid.first_cell] == out_.starts[grid.first_cell + cells_of(grid)];
         });
         if (out_.grids.empty()) out_.grids.push_back(coarsest);  // nothing hides anything
         for (LightGrid& grid : out_.grids) find_empty_cells(grid);
+    }
+    std::vector<std::pair<float, std::uint32_t>> by_nearness() const {
+        std::vector<std::pair<float, std::uint32_t>> order(used_);
+        for (std::size_t i = 0; i < used_; ++i)
+            order[i] = {records_[i].entry.near, static_cast<std::uint32_t>(i)};
+        std::sort(order.begin(), order.end());
+        return order;
     }
     // Points in several cells look at no list of empty ones; that does not pay where few are empty.
     void find_empty_cells(LightGrid& grid) {

@@ -49,6 +49,7 @@ struct LightBuffer {
     }
 
     LightMap map;
+    bool near_first = false;           ///< lists are sorted by LightEntry::near
     std::vector<LightGrid> grids;      ///< from fine to coarse
     BigVector<std::uint32_t> starts;   ///< of the cells' lists, and the end
     BigVector<LightEntry> entries;     ///< and room for a few more to be read

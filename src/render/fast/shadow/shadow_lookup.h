@@ -10,6 +10,7 @@
 
 #include <bit>
 #include <cmath>
+#include <limits>
 
 #include "fast/light/counted_points.h"
 #include "fast/light/light_cells.h"
@@ -68,12 +69,19 @@ class ShadowLookup {
         return HWY_UNLIKELY(rough != 0) ? good | add_rough(b, places, rough) : good;
     }
 
-    /// Tests all points that were added.
+    /// Tests all points that were added. Where lists begin with what blocks most, by rounds: their
+    /// rest is left out where that has blocked all.
     void run() {
         for (int i = 0; i < visit_count_; ++i) find_list(visits_[i]);
-        for (int i = 0; i < visit_count_; ++i) scan(visits_[i]);
-        test_candidates();
-        visit_count_ = 0;
+        const std::uint32_t round =
+            buffer_.near_first ? kStep : std::numeric_limits<std::uint32_t>::max();
+        while (visit_count_ > 0) {
+            int left = 0;
+            for (int i = 0; i < visit_count_; ++i)
+                if (scan(visits_[i], round)) visits_[left++] = visits_[i];
+            test_candidates();
+            visit_count_ = left;
+        }
     }
 
   private:
@@ -100,6 +108,7 @@ class ShadowLookup {
     };
     static constexpr int kMaxVisits = 512;
     static constexpr int kMaxCandidates = 256;
+    static constexpr std::uint32_t kStep = 16;
 
     HWY_INLINE std::uint32_t occupied(const Ints& cells) const {
         const Ints words = Ints::gather(buffer_.occupied.data(), cells >> Ints(5));
@@ -196,20 +205,26 @@ class ShadowLookup {
     }
 
     HWY_INLINE void find_list(Visit& visit) const {
-        constexpr int kLines = 4;
         visit.begin = buffer_.starts[visit.cell];
         visit.end = buffer_.starts[visit.cell + 1];
+        prefetch(visit);
+    }
+    HWY_INLINE void prefetch(const Visit& visit) const {
+        constexpr int kLines = static_cast<int>(kStep * sizeof(LightEntry) / 64);
         const LightEntry* const entries = buffer_.entries.data() + visit.begin;
         for (int line = 0; line < kLines; ++line)
             hwy::Prefetch(entries + line * static_cast<int>(64 / sizeof(LightEntry)));
     }
-    HWY_INLINE void scan(const Visit& visit) {
+    // Looks at the next entries, up to `most`; false: nothing is left to be looked at.
+    HWY_INLINE bool scan(Visit& visit, std::uint32_t most) {
         const ShadowTable& table = context_.table;
         const ShadowBlock& block = blocks_[visit.block];
-        for (std::uint32_t at = visit.begin; at < visit.end; at += 16) {
-            const LightEntry* const entries = buffer_.entries.data() + at;
+        if ((block.waiting() & visit.lanes) == 0) return false;
+        const std::uint32_t end = visit.begin + std::min(most, visit.end - visit.begin);
+        for (; visit.begin < end; visit.begin += kStep) {
+            const LightEntry* const entries = buffer_.entries.data() + visit.begin;
             std::uint32_t found = meets(entries, visit);
-            if (visit.end - at < 16) found &= (1U << (visit.end - at)) - 1;
+            if (end - visit.begin < kStep) found &= (1U << (end - visit.begin)) - 1;
             for (; found != 0; found &= found - 1) {
                 const Slot place = entries[std::countr_zero(found)].place;
                 if (place < table.triangles) {
@@ -220,10 +235,13 @@ class ShadowLookup {
                 }
                 candidates_[candidate_count_++] = {place, visit.block, visit.lanes};
             }
-            if (candidate_count_ <= kMaxCandidates - 16) continue;
+            if (candidate_count_ <= kMaxCandidates - static_cast<int>(kStep)) continue;
             test_candidates();
-            if ((block.waiting() & visit.lanes) == 0) return;
+            if ((block.waiting() & visit.lanes) == 0) return false;
         }
+        if (visit.begin >= visit.end || buffer_.entries[visit.begin].near > visit.depth) return false;
+        prefetch(visit);
+        return true;
     }
     // Which of 16 entries may stand before the visiting points.
     static HWY_INLINE std::uint32_t meets(const LightEntry* entries, const Visit& visit) {
