@@ -12,9 +12,9 @@ FOLDERS = (
     "src/octree",
     "src/render",
 )
-# gamma(9), gamma_of<T>(9), 8 * kUnitRoundoff, kRoundings * kFloatRoundoff, 2 * ...::epsilon()
+# gamma(9), gamma_of<T>(9), roundings(8), 8 * kUnitRoundoff, 2 * ...::epsilon()
 BOUND = re.compile(
-    r"gamma(?:_of<\w+>)?\(\d+\)"
+    r"(?:gamma(?:_of<\w+>)?|roundings)\([^()]+\)"
     r"|[\w.]+ \* (?:k(?:Unit|Float)Roundoff\b|std::numeric_limits<(?:double|float)>::epsilon\(\))"
 )
 CONSTANT = re.compile(r"^[a-z_]+ = \d+;  # constant, step -?1: .+$", re.M)

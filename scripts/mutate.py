@@ -41,12 +41,12 @@ ROOMS = {  # the files, and the test programs that run one after the other
     "bounds": (["src/render/fast/**/*.cpp", "src/render/fast/**/*.h"],
                [["render_tests", "--gtest_filter={near}"], ["render_tests", "--gtest_filter=Fast.*:FastFaults.*"]]),
 }
-ONLY = {"bounds": re.compile(r"Roundoff|gamma\(|Underflow|[eE]rror|[sS]lack|margin|kSmallest")}
+ONLY = {"bounds": re.compile(r"Roundoff|gamma\(|roundings\(|Underflow|[eE]rror|[sS]lack|margin|kSmallest")}
 SWAPS = {" < ": " <= ", " <= ": " < ", " > ": " >= ", " >= ": " > ", " == ": " != ", " != ": " == ", " && ": " || ",
          " || ": " && ", " + ": " - ", " - ": " + ", " * ": " / ", " / ": " * ", " += ": " -= ", " -= ": " += ",
          "std::min(": "std::max(", "std::max(": "std::min(", "true": "false", "false": "true", "++": "--"}
 SWAP = re.compile("|".join(r"\b" + k + r"\b" if k.isalpha() else re.escape(k) for k in SWAPS))
-BOUND = re.compile(r"\b(gamma(?:_of<\w+>)?)\((\d+)\)")
+BOUND = re.compile(r"\b(gamma(?:_of<\w+>)?|roundings)\(([^()]+)\)")
 NUMBER = re.compile(r"(?<![\w.<])\d+(?![\w.>])")
 STATEMENT = re.compile(r"^\s*(?:[\w.\->\[\]]+\(.*\);|[\w.\->\[\]]+ [-+*|&]?= .*;|continue;|break;|return;)$")
 

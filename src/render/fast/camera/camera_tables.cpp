@@ -27,7 +27,7 @@ CameraSphere make_sphere(const Vector3& from, double r, double error, double cro
     out.exact_radius = r;
     out.radius = static_cast<float>(r);
     out.inverse_power = static_cast<float>(1 / power);
-    out.power_error = bound(2 * error / std::fabs(power) + 4 * kFloatRoundoff);
+    out.power_error = bound(2 * error / std::fabs(power) + roundings(4));
     out.nearest = gap > 0 && power > error
                       ? bound(1 / (gap * (1 - gamma(32)) - gamma(16) * std::sqrt(ff)))
                       : kInfinity;

@@ -55,7 +55,7 @@ void make_exact_camera_triangle(const CameraTrianglesJob& job, const Triangle& t
         out.b[i] = static_cast<float>(b);
         out.c[i] = static_cast<float>(c);
         out.e[i] = rounded_up(gamma(64) * max_norm(v) * extent.direction +
-                              kCameraRoundings * kFloatRoundoff * most + kFloatUnderflow);
+                              roundings(kCameraRoundings) * most + kFloatUnderflow);
     };
     const ExactVector eye(job.eye);
     const ExactVector corner[3] = {ExactVector(triangle.a) - eye, ExactVector(triangle.b) - eye,

@@ -95,7 +95,7 @@ class PixelBoxMaker {
                 r * focal * sqrt(mul_add(across, across, (z - r) * (z + r))) * inverse;
             const Singles middle = x * z * inverse;
             // z - r carries 4 roundings, `inverse` 8, the terms, which may cancel, 18 at most.
-            const Singles slack = (abs(middle) + spread) * Singles(24 * kFloatRoundoff);
+            const Singles slack = (abs(middle) + spread) * Singles(roundings(24));
             low[k] = middle - spread - slack;
             high[k] = middle + spread + slack;
         }
@@ -145,8 +145,8 @@ class PixelBoxMaker {
         const auto all = Singles::Mask::from_bits(~(sure | hidden));
         const auto none = Singles::Mask::from_bits(hidden);
         for (int k = 0; k < 2; ++k) {
-            const Singles least = low[k] - abs(low[k]) * Singles(8 * kFloatRoundoff);
-            const Singles most = high[k] + abs(high[k]) * Singles(8 * kFloatRoundoff);
+            const Singles least = low[k] - abs(low[k]) * Singles(roundings(8));
+            const Singles most = high[k] + abs(high[k]) * Singles(roundings(8));
             // The least whole number from x on is -floor(-x).
             const Singles from = -floor(Singles(first_[k] + kMargin) - least);
             const Singles to = floor(most - Singles(first_[k] - kMargin)) + Singles(1.0F);
@@ -156,7 +156,7 @@ class PixelBoxMaker {
                 .store(end[k]);
         }
         select(all, Singles(std::numeric_limits<float>::infinity()),
-               nearest * Singles(1 + 16 * kFloatRoundoff))
+               nearest * Singles(1 + roundings(16)))
             .store(near);
         for (std::size_t i = 0; i < count; ++i) {
             const auto pack = [&](int k) {

@@ -44,7 +44,7 @@ struct SizedError {
     float a = 0;
     float b = 0;
     HWY_INLINE Floats of(const Floats& size) const {
-        return mul_add(size, Floats(b), Floats(a)) * Floats(1 + 4 * kFloatRoundoff);
+        return mul_add(size, Floats(b), Floats(a)) * Floats(1 + roundings(4));
     }
 };
 
@@ -57,7 +57,7 @@ struct LightRanges {
 };
 
 // A corner, or a sphere's centre, radius and their sum, in units of the largest.
-constexpr double kItemRounding = 4 * kFloatRoundoff;
+constexpr double kItemRounding = roundings(4);
 
 /// Through the plane of a light outside of the scene. [light_map.h]
 class PlaneRanges {
@@ -81,9 +81,9 @@ class PlaneRanges {
         // e weight (1 + |s|) / least, u by e (1 + |s|) and P_k times that. W has two roundings of
         // numbers up to 2, which u takes P_k times; s, the product and the difference three more.
         const double slope = (other + light.weight * reach) / least;
-        const double roundings = 4 * kFloatRoundoff / least + 4 * kFloatRoundoff;
+        const double rounding = roundings(4) / least + roundings(4);
         stretch_ = 2 * (1 + slope) * (1 + reach * light.weight / least);
-        rounding_ = (1 + slope) * roundings;
+        rounding_ = (1 + slope) * rounding;
         out.inside = false;
         out.stretch = static_cast<float>(stretch_);
         out.axis = k;
@@ -193,8 +193,8 @@ class CubeRanges {
         for (const float x : toward_) toward = std::fmax(toward, std::fabs(x));
         // W = L - P has three roundings of these, the point's as well as the item's.
         error_by_size_ = {
-            rounded_up(weight_ * error + 4 * kFloatRoundoff * (2 * toward + weight_ * size)),
-            rounded_up(weight_ * (kItemRounding + 4 * kFloatRoundoff))};
+            rounded_up(weight_ * error + roundings(4) * (2 * toward + weight_ * size)),
+            rounded_up(weight_ * (kItemRounding + roundings(4)))};
         out.nearest = rounded_up(
             2 * kNear *
             (static_cast<double>(error_by_size_.a) + static_cast<double>(error_by_size_.b) * size));
@@ -235,7 +235,7 @@ class CubeRanges {
         const RayMask deep = least > error_ * Floats(kNear);
         const Floats inverse_least = Floats(1.0F) / least;
         const Floats margin =
-            mul_add(error_ * Floats(8.0F), inverse_least, Floats(8 * kFloatRoundoff));
+            mul_add(error_ * Floats(8.0F), inverse_least, Floats(roundings(8)));
         for (int i = 0; i < 2; ++i) {
             const auto [low, high] = range(axes[i], k, upper, inverse_least, most);
             out.low[i] = select(deep, low - margin, Floats(-2.0F));

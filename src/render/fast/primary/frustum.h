@@ -146,7 +146,7 @@ class Frustum {
         select(anywhere, OctantFloats(BlockRange::kAll), mul_add(rows, sixteen * sixteen, columns))
             .store(seen.range);
         select(anywhere, OctantFloats(std::numeric_limits<float>::infinity()),
-               by_near * OctantFloats(1 + 4 * kFloatRoundoff))
+               by_near * OctantFloats(1 + roundings(4)))
             .store(seen.nearest);
         return octants;
     }
@@ -180,11 +180,11 @@ class Frustum {
                 of_eye += term * std::fabs(eye[axis]);
                 most += term * (reach + std::fabs(eye[axis]));
                 f_[axis] = static_cast<float>(f[axis]);
-                error_[axis] = rounded_up(kRoundings * kFloatRoundoff * term);
+                error_[axis] = rounded_up(roundings(kRoundings) * term);
                 spread_[axis] = std::fabs(f_[axis]) + error_[axis];
             }
             constant_ = static_cast<float>(constant);
-            constant_error_ = rounded_up(kRoundings * kFloatRoundoff * of_eye + kFloatUnderflow);
+            constant_error_ = rounded_up(roundings(kRoundings) * of_eye + kFloatUnderflow);
             usable_ = most < kLargest;
         }
         /// Whether no sum is beyond floats.

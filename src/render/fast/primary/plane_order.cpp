@@ -26,7 +26,7 @@ PlaneOrder PlaneOrders::order_of(Slot first, Slot second) const {
     const double error = gamma(64) * max_norm(m) * extent.direction;
     const double most = std::fabs(a) * extent.x + std::fabs(b) * extent.y + std::fabs(c);
     return {static_cast<float>(a), static_cast<float>(b), static_cast<float>(c),
-            rounded_up(error + kCameraRoundings * kFloatRoundoff * most + kFloatUnderflow)};
+            rounded_up(error + roundings(kCameraRoundings) * most + kFloatUnderflow)};
 }
 
 }  // namespace nuvo

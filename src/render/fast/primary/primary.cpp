@@ -372,7 +372,7 @@ class PrimaryTracer {
             if (quadric_hits_ == nullptr) continue;
             for (int axis = 0; axis < 3; ++axis)
                 quadric_hits_->normal[axis][lane] = static_cast<float>(nearest->normal[axis]);
-            quadric_hits_->error[lane] = 2 * kFloatRoundoff;
+            quadric_hits_->error[lane] = roundings(2);
         }
     }
 

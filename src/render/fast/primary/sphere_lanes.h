@@ -60,7 +60,7 @@ class SphereConics {
         const Floats slope = abs(mul_add(xx + xx, x, mul_add(xy, y, Floats(x_[i])))) +
                              abs(mul_add(yy + yy, y, mul_add(xy, x, Floats(y_[i]))));
         const Floats bend = (abs(xx) + abs(xy) + abs(yy)) * Floats(kHalfBlock);
-        const Floats most = mul_add((slope + bend) * Floats(1 + 16 * kFloatRoundoff),
+        const Floats most = mul_add((slope + bend) * Floats(1 + roundings(16)),
                                     Floats(kHalfBlock), discriminant(i, x, y));
         return (most >= Floats(-error_[i])).bits() & blocks;
     }
@@ -139,7 +139,7 @@ class SphereConics {
         b.store(b_);
         b_x.store(b_x_);
         b_y.store(b_y_);
-        mul_add(mul_add(abs(b_x) + abs(b_y), m, abs(b)), Floats(8 * kFloatRoundoff), cross_error)
+        mul_add(mul_add(abs(b_x) + abs(b_y), m, abs(b)), Floats(roundings(8)), cross_error)
             .store(b_error_);
     }
 
@@ -172,10 +172,10 @@ class SphereConics {
         const Floats s = mul_add(r_square, square, size);
         const Floats c = cross_error * Floats(2 / kRootOfRoundoff);
         const Floats error =
-            mul_add(s, Floats(4 * kFloatRoundoff), c * c) +
-            mul_add(size, Floats(9 * kFloatRoundoff), Floats(static_cast<float>(kFloatUnderflow)));
+            mul_add(s, Floats(roundings(4)), c * c) +
+            mul_add(size, Floats(roundings(9)), Floats(static_cast<float>(kFloatUnderflow)));
         error.store(error_);
-        (sqrt(error + error) * Floats(1 + 4 * kFloatRoundoff)).store(root_error_);
+        (sqrt(error + error) * Floats(1 + roundings(4))).store(root_error_);
     }
     static constexpr float kRootOfRoundoff = 0x1p-12F;
 
@@ -204,8 +204,8 @@ struct SphereHits {
                                       Floats(conics.root_error(i)));
         const Floats q = (root - conics.toward(i, x, y)) * Floats(s.inverse_power);
         const Floats q_error = (root_error + Floats(conics.toward_error(i))) *
-                                   Floats(std::fabs(s.inverse_power) * (1 + 8 * kFloatRoundoff)) +
-                               abs(q) * Floats(s.power_error + 8 * kFloatRoundoff);
+                                   Floats(std::fabs(s.inverse_power) * (1 + roundings(8))) +
+                               abs(q) * Floats(s.power_error + roundings(8));
         low = q - q_error;
         high = q + q_error;
     }

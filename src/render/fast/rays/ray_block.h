@@ -37,7 +37,7 @@ class RayBlock {
 
   private:
     static constexpr float kSlabRoundings = 10;
-    static constexpr float kSlack = kSlabRoundings * kFloatRoundoff;
+    static constexpr float kSlack = roundings(kSlabRoundings);
     static constexpr std::int32_t kSignBit = std::numeric_limits<std::int32_t>::min();
     // Components of d are kept off 0 by this; s d stays as near to the ray as slabs are wide.
     static constexpr float kLeastDirection = 0x1p-60F;

@@ -86,7 +86,7 @@ std::optional<RayCandidate> SingleRays::decide(const Ray& ray, const LocalRay& l
     if (!hit) return std::nullopt;
     // Rounded to float, with the advance's and the origin's errors: |d| >= 1.
     const double s = hit->t * local.scale - local.advance;
-    const double slack = 4 * kFloatRoundoff * std::fabs(s) + 4 * local.error +
+    const double slack = roundings(4) * std::fabs(s) + 4 * local.error +
                          2 * root_tolerance() * (std::fabs(s) + local.advance) +
                          std::numeric_limits<float>::min();
     return RayCandidate{static_cast<float>(s - slack), static_cast<float>(s + slack), hit->slot,

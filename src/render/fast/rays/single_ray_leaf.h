@@ -31,7 +31,7 @@ using LeafInts = Lanes<std::int32_t, kLeafLanes>;
 
 inline constexpr float kReach = 0x1p16F + 0x1p14F;
 inline constexpr float kCorner = 0.5625F;
-static_assert(kCornerRounding + 0x1p-6 + 4 * kFloatRoundoff * kReach < kCorner);
+static_assert(kCornerRounding + 0x1p-6 + roundings(4) * kReach < kCorner);
 
 /// What is known of 8 primitives: [low, high] bounds the hit's parameter where it is met.
 struct LeafHits {
@@ -101,7 +101,7 @@ struct RayAtLeaf {
         // A sum, and the sums here: less than 4 roundings.
         const LeafFloats s = along + LeafFloats(entry);
         const LeafFloats slack =
-            mul_add(abs(s) + LeafFloats(entry), LeafFloats(4 * kFloatRoundoff), error);
+            mul_add(abs(s) + LeafFloats(entry), LeafFloats(roundings(4)), error);
         hits.low = s - slack;
         hits.high = s + slack;
     }
@@ -154,8 +154,8 @@ HWY_INLINE LeafHits test_triangles(const RayAtLeaf& ray, const std::uint16_t* co
     const LeafFloats v = -dot(a, dc);
     const LeafFloats w = dot(a, cross(d, b));
     constexpr float kEdge =
-        4 * kCorner * kReach + 2 * kCorner * kCorner + 18 * kFloatRoundoff * kReach * kReach;
-    const LeafFloats edge_error(scale * kEdge * (1 + 8 * kFloatRoundoff) * ray.step_sum);
+        4 * kCorner * kReach + 2 * kCorner * kCorner + roundings(18) * kReach * kReach;
+    const LeafFloats edge_error(scale * kEdge * (1 + roundings(8)) * ray.step_sum);
     const LeafFloats least = min(u, min(v, w));
     const LeafFloats most = max(u, max(v, w));
     const LeafMask inside = (least > edge_error) | without(most < -edge_error, front);
@@ -180,8 +180,8 @@ HWY_INLINE LeafHits test_triangles(const RayAtLeaf& ray, const std::uint16_t* co
     // Room for the roundings of the bound itself, and of the product above.
     const LeafFloats error =
         mul_add(abs(along), slope_error, height_error) * abs(inverse) *
-            mul_add(share, LeafFloats(2.0F), LeafFloats(1 + 16 * kFloatRoundoff)) +
-        abs(along) * LeafFloats(4 * kFloatRoundoff);
+            mul_add(share, LeafFloats(2.0F), LeafFloats(1 + roundings(16))) +
+        abs(along) * LeafFloats(roundings(4));
     ray.set_interval(hits, along, error);
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
     hits.low = select(crossing, hits.low, LeafFloats(-kInfinity));
@@ -213,11 +213,11 @@ HWY_INLINE LeafHits test_spheres(const RayAtLeaf& ray, const float* values, std:
                           mul_add(middle, d.z, f.z)};
     const LeafFloats across = dot(l, l);
     const LeafFloats depth = mul_add(r, r, -across);
-    const LeafFloats error = mul_add(sum(f), LeafFloats(scale * 32 * kFloatRoundoff),
-                                     LeafFloats(scale * (8 * kFloatRoundoff + ray.point_error)));
+    const LeafFloats error = mul_add(sum(f), LeafFloats(scale * roundings(32)),
+                                     LeafFloats(scale * (roundings(8) + ray.point_error)));
     const LeafFloats depth_error =
         mul_add(mul_add(sum(l), LeafFloats(2.0F), error * LeafFloats(3.0F)), error,
-                mul_add(r, r, across) * LeafFloats(scale * 16 * kFloatRoundoff));
+                mul_add(r, r, across) * LeafFloats(scale * roundings(16)));
     const LeafMask meets = depth > depth_error;
     const LeafMask misses = depth < -depth_error;
     LeafHits hits = LeafHits::none();
@@ -226,11 +226,11 @@ HWY_INLINE LeafHits test_spheres(const RayAtLeaf& ray, const float* values, std:
     // sqrt(depth +- error) differs by less than error / sqrt(depth); |d| >= 1.
     const LeafFloats half_error = select(
         meets,
-        depth_error / (half * LeafFloats(ray.square)) + half * LeafFloats(8 * kFloatRoundoff),
+        depth_error / (half * LeafFloats(ray.square)) + half * LeafFloats(roundings(8)),
         sqrt(depth_error + depth_error));
     const LeafFloats slack =
         half_error + error +
-        (abs(middle) + LeafFloats(ray.entry) + half) * LeafFloats(scale * 8 * kFloatRoundoff);
+        (abs(middle) + LeafFloats(ray.entry) + half) * LeafFloats(scale * roundings(8));
     const LeafFloats near = LeafFloats(ray.entry) + (middle - half);
     const LeafFloats far = LeafFloats(ray.entry) + (middle + half);
     const LeafFloats behind(ray.behind);

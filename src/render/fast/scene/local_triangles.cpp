@@ -53,7 +53,7 @@ class LocalMaker {
 
   private:
     static HWY_INLINE Column margin(const Column& v) {
-        return abs(v) * Column(2 * kFloatRoundoff) + Column(std::numeric_limits<float>::min());
+        return abs(v) * Column(roundings(2)) + Column(std::numeric_limits<float>::min());
     }
 
     const LocalTrianglesJob& job_;

@@ -48,8 +48,8 @@ HWY_INLINE PixelColors banded(const std::vector<BackgroundBand>& bands, const Fl
             out.channel[c] = select(
                 here, mul_add(part, Floats(band.step[c]), Floats(band.color[c])), out.channel[c]);
         const Floats error =
-            mul_add(angle_error * width, Floats(1.01F * band.step_most),
-                    Floats(4 * kFloatRoundoff * band.most + 4 * kFloatRoundoff * band.step_most));
+            mul_add(angle_error * width, Floats(kSlack * band.step_most),
+                    Floats(roundings(4) * band.most + roundings(4) * band.step_most));
         out.error = select(here, error, out.error);
         open = without(open, here) & (least > Floats(band.upper));
     }
@@ -60,16 +60,16 @@ HWY_INLINE PixelColors gradient(const ShadingBackground& background, const Float
                                 float sine_error) {
     const Floats one(1.0F);
     const Floats error(sine_error);  // then those of angles up to pi
-    const Floats margin(kArcError + 8 * kFloatRoundoff);
+    const Floats margin(kArcError + roundings(8));
     const Floats least = arc_cosine(min(y + error, one)) - margin;
     const Floats most = arc_cosine(max(y - error, -one)) + margin;
-    const Floats half = (most - least) * Floats(0.5F) + Floats(4 * kFloatRoundoff);
+    const Floats half = (most - least) * Floats(0.5F) + Floats(roundings(4));
     const Floats from_zenith = (most + least) * Floats(0.5F);
     PixelColors out = banded(background.sky, from_zenith, half);
     if (!background.has_ground) return out;
     constexpr float kPi = 3.14159265F;
     const PixelColors ground =
-        banded(background.ground, Floats(kPi) - from_zenith, half + Floats(8 * kFloatRoundoff));
+        banded(background.ground, Floats(kPi) - from_zenith, half + Floats(roundings(8)));
     const RayMask below = y < Floats(0.0F);
     for (int c = 0; c < 3; ++c) out.channel[c] = select(below, ground.channel[c], out.channel[c]);
     out.error = select(below, ground.error, out.error);

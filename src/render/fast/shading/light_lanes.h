@@ -13,15 +13,10 @@
 #include "fast/simd/vector_math.h"
 
 // Geometry of one light at 16 points: direction, attenuation, spot and specular lobe [eq. 38-44].
-// In the comments u is 2^-24, and numbers of u count roundings to first order; each sum is rounded
-// up by enough for the second.
+// In the comments u is 2^-24, and numbers of u count roundings.
 
 HWY_BEFORE_NAMESPACE();
 namespace nuvo::HWY_NAMESPACE {
-
-// 1 / (1 - x) <= 1 + kSecondOrder x for x < kSmall.
-inline constexpr float kSmall = 1.0F / 16;
-inline constexpr float kSecondOrder = 1.07F;
 
 /// The relative error that an error of `x` of a vector of length 1 gives its direction and, the
 /// inverse of, its length; infinite where that is not small.
@@ -48,8 +43,8 @@ struct ToLight {
         }
         inverse = inverse_sqrt(square);
         const Floats error = Floats::load(tile.point_error + first) + Floats(light.location_error);
-        // The difference 1 u; 3 u of the square by half; the root 2.2 u.
-        relative = small_error(error * inverse) + Floats(4.8F * kFloatRoundoff);
+        // The difference 1 u, 3 u of the square by half, and the root.
+        relative = small_error(error * inverse) + Floats(roundings(1 + 1.5) + kInverseSqrtError);
     }
 
     /// The unit vector to the light.
@@ -80,7 +75,7 @@ HWY_INLINE void weaken_by_cone(const ShadingLight& light, const ToLight& toward,
     const Floats chord = sqrt(square);
     // Of a length up to 1.42: the way's, those of the axis and the product (1 each), of the
     // difference (1.42), of the square by half and of the root (2.5 x 1.42).
-    const Floats error = toward.relative + Floats(7.1F * kFloatRoundoff);
+    const Floats error = toward.relative + Floats(roundings(7));
     // Behind the light it is a right angle.
     const auto angle = [](const Floats& c) HWY_ATTR {
         constexpr float kRootOfHalf = 0.70710678F;
@@ -89,7 +84,7 @@ HWY_INLINE void weaken_by_cone(const ShadingLight& light, const ToLight& toward,
         return arc + arc;
     };
     // The limit's rounding, and those of differences from it.
-    const Floats margin(3 * kFloatRoundoff * light.cut_off);
+    const Floats margin(roundings(3) * light.cut_off);
     // Bounds of arcs that round a little more than arc_sine() does.
     const Floats least = angle(chord - error) * Floats(1 - 2 * kArcSineError) - margin;
     const Floats most = angle(chord + error) * Floats(1 + 2 * kArcSineError) + margin;
@@ -108,7 +103,7 @@ HWY_INLINE void weaken_by_cone(const ShadingLight& light, const ToLight& toward,
         low = select(most < Floats(light.cut_off), one, Floats(0.0F));
     }
     const Floats middle = (high + low) * Floats(0.5F);
-    const Floats half = (high - low) * Floats(0.5F) + Floats(4 * kFloatRoundoff);
+    const Floats half = (high - low) * Floats(0.5F) + Floats(roundings(4));
     factor.error = factor.error + half;
     factor.value = factor.value * middle;
     // NaN ends where nothing is known.
@@ -122,9 +117,9 @@ HWY_INLINE Factor strength(const ShadingLight& light, const ToLight& toward) {
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
     Factor factor{Floats(1.0F), Floats(0.0F), RayMask::from_bits(0xffff)};
     const Floats distance = toward.square * toward.inverse;
-    const Floats relative = toward.relative + Floats(2 * kFloatRoundoff);
+    const Floats relative = toward.relative + Floats(roundings(2));
     if (light.ranged) {
-        const Floats slack = distance * (relative + Floats(2 * kFloatRoundoff));
+        const Floats slack = distance * (relative + Floats(roundings(2)));
         factor.perhaps = ~(distance - slack > Floats(light.radius));
         factor.error =
             select(distance + slack < Floats(light.radius), Floats(0.0F), Floats(kInfinity));
@@ -134,9 +129,11 @@ HWY_INLINE Factor strength(const ShadingLight& light, const ToLight& toward) {
             mul_add(mul_add(Floats(light.attenuation[2]), distance, Floats(light.attenuation[1])),
                     distance, Floats(light.attenuation[0]));
         factor.value = reciprocal(max(loss, Floats(1.0F)));
-        // At most quadratic in the distance; 5 roundings of the polynomial, 2 of the inverse.
-        const Floats error = mul_add(relative, Floats(2.0F), Floats(8 * kFloatRoundoff));
-        factor.error = mul_add(factor.value * Floats(1.2F), error, factor.error);
+        // At most quadratic in the distance; 5 roundings of the polynomial, 2 of the inverse; all
+        // less than 3 kSmall, or not small.
+        constexpr float kInverseSlope = 1 / (1 - 3 * kSmall);
+        const Floats error = mul_add(relative, Floats(2.0F), Floats(roundings(8)));
+        factor.error = mul_add(factor.value * Floats(kInverseSlope), error, factor.error);
     }
     if (light.spot) weaken_by_cone(light, toward, factor);
     return factor;
@@ -167,8 +164,8 @@ HWY_INLINE Lobe specular_lobe(const Floats (&normal)[3], const Floats (&toward)[
     const Floats inverse = inverse_sqrt(square);
     // The sum's rounding (of a length up to 2); the square's 3 u by half, the root, the product.
     const Floats halfway_error =
-        small_error((directions_error + Floats(2 * kFloatRoundoff)) * inverse) +
-        Floats(4.8F * kFloatRoundoff);
+        small_error((directions_error + Floats(roundings(2))) * inverse) +
+        Floats(roundings(1.5 + 1) + kInverseSqrtError);
     Floats between(0.0F);
     for (int axis = 0; axis < 3; ++axis) {
         const Floats difference = neg_mul_add(sum[axis], inverse, normal[axis]);
@@ -178,8 +175,8 @@ HWY_INLINE Lobe specular_lobe(const Floats (&normal)[3], const Floats (&toward)[
     const Floats length = between * above_inverse_sqrt(between + Floats(kTiny));
     const Floats error = normal_error + halfway_error;
     const Floats z_error =
-        mul_add(length, error, mul_add(error, error, z * Floats(6 * kFloatRoundoff))) *
-        Floats(1.01F);
+        mul_add(length, error, mul_add(error, error, z * Floats(roundings(6)))) *
+        Floats(kSlack);
 
     const Floats cosine = one - z;
     const Floats power = power_of_complement(min(z, Floats(kBelowOne)), exponent);
@@ -191,7 +188,7 @@ HWY_INLINE Lobe specular_lobe(const Floats (&normal)[3], const Floats (&toward)[
     Lobe lobe;
     lobe.value = power;
     lobe.error = select(regular, power * (steep / cosine) * Floats(kSecondOrder), lipschitz) +
-                 Floats(kPowerError + kFloatRoundoff);
+                 Floats(kPowerError + roundings(1));
     lobe.perhaps = ~(z - z_error > one);
     const RayMask even = exponent == Floats(0.0F);  // x^0 is 1
     lobe.value = select(even, one, lobe.value);

@@ -51,8 +51,6 @@ class TileFinisher {
     }
 
   private:
-    static constexpr float kSlack = 1.01F;
-
     static HWY_INLINE PixelColors merged(const RayMask& mask, const PixelColors& a,
                                          const PixelColors& b) {
         PixelColors out;
@@ -140,7 +138,7 @@ class TileFinisher {
         find_materials(b, hit, material);
         const bool specular = (tables_.any_flags & kSpecularFlag) != 0;
         const float rounding =
-            kSlack * kFloatRoundoff * (3 + static_cast<float>(tables_.lights.size()));
+            kSlack * roundings(3 + static_cast<double>(tables_.lights.size()));
         PixelColors out;
         Floats brightest;
         sum(scratch_.diffuse, first, material.emissive, material.diffuse, out, brightest);

@@ -29,7 +29,7 @@ class LightSampler {
           exact_(tables.scene.scene().lights[light]),
           tile_(tile),
           scratch_(scratch),
-          tint_rounding_(tables.channels == 1 ? 0 : 2 * kFloatRoundoff) {}
+          tint_rounding_(tables.channels == 1 ? 0 : roundings(2)) {}
 
     void run(TileMask& wanted) {
         for (int b = 0; b < kTileBlocks; ++b) {
@@ -97,12 +97,12 @@ class LightSampler {
                            (slot < Ints(static_cast<std::int32_t>(tables_.scene.triangle_end())));
         const Floats cosine = Floats::gather(light_.cosines.data(), select(known, slot, Ints(0)));
         if constexpr (kDirectional) {
-            return {cosine, mul_add(abs(cosine), Floats(1.01F * kFloatRoundoff + tint_rounding_),
+            return {cosine, mul_add(abs(cosine), Floats(roundings(1) + tint_rounding_),
                                     Floats(light_.cosine_error))};
         } else {
             const Floats value = cosine * toward.inverse;
             const Floats relative =
-                toward.relative + Floats(2.1F * kFloatRoundoff + tint_rounding_);
+                toward.relative + Floats(roundings(2) + tint_rounding_);
             return {value,
                     mul_add(abs(value), relative, Floats(light_.cosine_error) * toward.inverse)};
         }
@@ -119,21 +119,21 @@ class LightSampler {
         }
         const Floats gain(light_.gain);
         const Floats error = normal_error(b) + direction_error(toward) +
-                             Floats(3.1F * kFloatRoundoff + tint_rounding_);
-        return {dot * gain, mul_add(abs(dot), Floats(3 * kFloatRoundoff), error) * gain};
+                             Floats(roundings(3) + tint_rounding_);
+        return {dot * gain, mul_add(abs(dot), Floats(roundings(3)), error) * gain};
     }
     HWY_INLINE Floats normal_error(int b) const {
         constexpr float kTableError =
-            1.1F * kFloatRoundoff;  // one rounding and kTriangleNormalError
+            roundings(1) + static_cast<float>(kTriangleNormalError);
         return select(RayMask::from_bits(scratch_.smooth[b]),
                       Floats::load(scratch_.normal_error + b * kBlockLanes), Floats(kTableError));
     }
     // Of the unit vector to the light.
     HWY_INLINE Floats direction_error(const Toward& toward) const {
         if constexpr (kDirectional)
-            return Floats(1.1F * kFloatRoundoff);
+            return Floats(roundings(1));
         else
-            return toward.relative + Floats(1.1F * kFloatRoundoff);
+            return toward.relative + Floats(roundings(1));
     }
 
     HWY_INLINE void add_ambient(int first, Lit& lit, RayMask& wanted) const {
@@ -141,7 +141,7 @@ class LightSampler {
             of_materials(first, &ShadingMaterial::ambient) * Floats(light_.ambient);
         wanted = wanted | (ambient > Floats(0.0F));
         lit.value = lit.value + ambient;
-        lit.error = mul_add(lit.value, Floats(4 * kFloatRoundoff + tint_rounding_), lit.error);
+        lit.error = mul_add(lit.value, Floats(roundings(4) + tint_rounding_), lit.error);
     }
     HWY_INLINE Floats of_materials(int first, float ShadingMaterial::*member) const {
         if (tables_.uniform) return Floats(tables_.materials[0].*member);
@@ -174,13 +174,13 @@ class LightSampler {
             }
             // The view's: d's own, 2 halves of |d|^2, the root's and the product's.
             const Floats directions_error =
-                direction_error(toward) + Floats(tables_.rays.relative + 4.3F * kFloatRoundoff);
+                direction_error(toward) + Floats(tables_.rays.relative + roundings(1 + 1) + kInverseSqrtError);
             lobe = specular_lobe(normal, to_light, to_viewer, normal_error(first / kBlockLanes),
                                  directions_error, of_materials(first, &ShadingMaterial::exponent));
             lobe.perhaps = lobe.perhaps & shiny;
             const Floats gain(light_.gain);
             lobe.error =
-                mul_add(lobe.value, Floats(3.1F * kFloatRoundoff + tint_rounding_), lobe.error) *
+                mul_add(lobe.value, Floats(roundings(3) + tint_rounding_), lobe.error) *
                 gain;
             lobe.value = lobe.value * gain;
             if (factor != nullptr) {

@@ -5,12 +5,10 @@
 #include <limits>
 
 #include "fast/shading/shading_tables.h"
+#include "fast/simd/estimate_error.h"
 
 namespace nuvo {
 namespace {
-
-// Outweighs second-order terms and the roundings of a bound's own computation.
-constexpr double kSlack = 1.02;
 
 std::size_t whole_tiles(int pixels) {
     return static_cast<std::size_t>((pixels + kTileSide - 1) / kTileSide * kTileSide);
@@ -50,18 +48,17 @@ ShadingRays::ShadingRays(const CameraRays& camera) {
     const double across = nuvo::length(camera.right) * 0.5 * size.width;
     const double along = 1 + nuvo::length(camera.down) * 0.5 * size.height;
     // The sum of perpendicular parts a, b is at least (|a| + |b|) / sqrt(2).
-    const double unit = kFloatRoundoff;
     longest = rounded_up(kSlack * std::sqrt(across * across + along * along));
-    error = rounded_up(kSlack * unit * (across + along + static_cast<double>(longest)));
-    relative = rounded_up(kSlack * unit * (std::sqrt(2.0) + 1));
+    error = rounded_up(roundings(1) * (across + along + static_cast<double>(longest)));
+    relative = roundings(std::sqrt(2.0) + 1);
     // d_y: roundings of its parts and their sum, |d| >= 1; then of y = d_y / |d| the roundings of
-    // the parts of |d|^2 and of their sum by half (1), the root's (2.2) and the product's. And what
+    // the parts of |d|^2 and of their sum by half (1), the root's and the product's. And what
     // the axes lack of being perpendicular.
     const double parts = largest_step(column[1]) + largest_step(row[1]);
     const double y = std::min(1.0, parts);
     const double skew = std::fabs(dot(camera.right, camera.forward)) * 0.5 * size.width +
                         std::fabs(dot(camera.right, camera.down)) * 0.25 * size.width * size.height;
-    sine_error = rounded_up(kSlack * (unit * (parts + y + 4.2 * y) + skew));
+    sine_error = rounded_up(roundings(1) * (parts + 3 * y) + kInverseSqrtError * y + kSlack * skew);
 }
 
 std::size_t ShadingRays::memory_bytes() const {

@@ -99,10 +99,10 @@ class SurfaceFiller {
             largest = max(largest, abs(x));
         }
         const Floats w = (high - low) * t;
-        const Floats half = mul_add(w, w, w) * Floats(0.51F * tables_.rays.longest);
+        const Floats half = mul_add(w, w, w) * Floats(kSlack / 2 * tables_.rays.longest);
         const Floats error =
             mul_add(t, half + Floats(bounds.point_by_t),
-                    mul_add(largest, Floats(2 * kFloatRoundoff), Floats(bounds.point_constant)));
+                    mul_add(largest, Floats(roundings(2)), Floats(bounds.point_constant)));
         select(w < Floats(1.0F), error, Floats(kInfinity)).store(tile_.point_error + first);
     }
 

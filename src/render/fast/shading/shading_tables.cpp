@@ -6,6 +6,7 @@
 #include <map>
 
 #include "fast/shading/shading_cosines.h"
+#include "fast/simd/estimate_error.h"
 #include "nuvo/geometry/predicates.h"
 #include "nuvo/render/shading.h"
 
@@ -13,8 +14,6 @@ namespace nuvo {
 namespace {
 
 constexpr double kFullByte = 255;
-// Outweighs second-order terms and the roundings of a bound's own computation.
-constexpr double kSlack = 1.02;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // More lights use normals: their tables would outgrow the caches.
 constexpr std::size_t kLightsWithCosines = 8;
@@ -139,7 +138,7 @@ void add_mesh_flags(ShadingTables& tables) {
     if ((tables.any_flags & (kSmoothFlag | kColoredFlag)) != 0) tables.uniform = false;
     if ((tables.any_flags & kSmoothFlag) != 0) place_smooth_triangles(tables);
     // Weights in double, then one rounding of each sum.
-    tables.bounds.color_error = rounded_up(2 * kFloatRoundoff * most * kFullByte);
+    tables.bounds.color_error = rounded_up(roundings(2) * most * kFullByte);
 }
 
 // The farthest that a point of the scene is from `p`, in the local frame.
@@ -171,7 +170,7 @@ void place_light(const ShadingTables& tables, const Light& exact, ShadingLight& 
     // Where floats can square the way.
     constexpr double kFarthest = 0x1p60;
     light.location_error = max_norm(location) < kFarthest
-                               ? rounded_up(kSlack * (kFloatRoundoff * length(location) +
+                               ? rounded_up(kSlack * (roundings(1) * length(location) +
                                                       world_rounding(scene, exact.location)))
                                : std::numeric_limits<float>::infinity();
     const Vector3& a = exact.attenuation;
@@ -246,12 +245,13 @@ void bound_points(ShadingTables& tables) {
     const ShadingRays& rays = tables.rays;
     ShadingBounds& bounds = tables.bounds;
     // P = o + t d: the rounding of o, and of the sum, which is added with P [fill_points]; of
-    // 1 / near and the mean that is near (3.2 u) and of the product.
+    // 1 / near, the mean that is near (2 u) and the product.
     const double world = world_rounding(tables.scene, tables.scene.scene().camera.position);
     bounds.point_constant =
-        rounded_up(kSlack * (kFloatRoundoff * length(tables.camera.origin) + world));
+        rounded_up(kSlack * (roundings(1) * length(tables.camera.origin) + world));
     bounds.point_by_t =
-        rounded_up(kSlack * (4.2 * kFloatRoundoff * static_cast<double>(rays.longest) +
+        rounded_up(kSlack * (static_cast<double>(roundings(2 + 1) + kReciprocalError) *
+                                 static_cast<double>(rays.longest) +
                              static_cast<double>(rays.error)));
     bounds.world_rounding = rounded_up(kSlack * world);
 }
@@ -307,7 +307,7 @@ void add_background(ShadingTables& tables) {
         const double most = max_norm(slope);
         const auto y = static_cast<double>(tables.rays.sine_error);
         out.error = rounded_up(kSlack * kFullByte *
-                               (most * y + kFloatRoundoff * (2 * max_norm(middle) + 3 * most)));
+                               (most * y + roundings(1) * (2 * max_norm(middle) + 3 * most)));
     } else {
         out.kind = ShadingBackground::Kind::kGradient;
         out.in_range = false;  // where bounds lie in two bands

@@ -23,6 +23,11 @@ namespace nuvo {
 /// Bounds |n - n'| of a triangle's normals as a table and as surface_point() compute them (see
 /// shading_cosines.cpp).
 inline constexpr double kTriangleNormalError = 0x1p-34;
+/// Outweighs second-order terms and the roundings of a bound's own computation.
+inline constexpr float kSlack = 1.02F;
+/// 1 / (1 - x) <= 1 + kSecondOrder x for x < kSmall.
+inline constexpr float kSmall = 1.0F / 16;
+inline constexpr float kSecondOrder = 1.07F;
 
 /// A material, its colors times 255.
 struct ShadingMaterial {

@@ -113,8 +113,7 @@ class SmoothNormalLanes {
   private:
     static constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
     static constexpr float kInfinity = std::numeric_limits<float>::infinity();
-    static constexpr float kSecondRound = 1 + 8 * kFloatRoundoff;
-    static constexpr float kSmallEnough = 1.0F / 16;  // 1 / (1 - x) <= 1 + 1.07 x
+    static constexpr float kSecondRound = 1 + roundings(8);
 
     static double norm1(const Vector3& v) {
         return std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z);
@@ -164,7 +163,7 @@ class SmoothNormalLanes {
     }
 
     static constexpr double kDigits = 0x1p28;
-    static constexpr float kSphereNormalError = 14 * kFloatRoundoff;
+    static constexpr float kSphereNormalError = roundings(14);
     struct UnitNormals {
         Floats n[3];
         RayMask known;
@@ -230,8 +229,8 @@ class SmoothNormalLanes {
         store_normal(normal, unit.known, Floats(kSphereNormalError));
         // P: of centre and sum, which is at most the radius more, and the radius's times the
         // normal's and two more.
-        const float error = (kSphereNormalError + 4 * kFloatRoundoff) * radius +
-                            3 * kFloatRoundoff * static_cast<float>(length(center - Point3{})) +
+        const float error = (kSphereNormalError + roundings(4)) * radius +
+                            roundings(3) * static_cast<float>(length(center - Point3{})) +
                             tables_.bounds.world_rounding;
         store_point(point, unit.known, error);
     }
@@ -239,7 +238,7 @@ class SmoothNormalLanes {
     // The unit normal of the ball, taken back: by the map for points, by its transpose for normals,
     // whose length tells what their error counts. [numerics: ellipsoids as balls]
     HWY_INLINE void fill_ball(const BallMap& map, const CameraSphere& ball) {
-        constexpr float kUnitError = kSphereNormalError + 2 * kFloatRoundoff;  // and the map's own
+        constexpr float kUnitError = kSphereNormalError + roundings(2);  // and the map's own
         const Vector3 f = Vector3{ball.from[0], ball.from[1], ball.from[2]} * (1 / map.radius);
         const bool inside = ball.inverse_power < 0;
         Rays rays;
@@ -278,11 +277,11 @@ class SmoothNormalLanes {
         // The sum carries the roundings of its matrix and 3 more of each term.
         const auto size = static_cast<float>(std::sqrt(squares));
         const Floats relative =
-            inverse * Floats(size * (kUnitError + 4 * kFloatRoundoff) * kSecondRound);
-        const RayMask known = unit.known & (relative < Floats(kSmallEnough));
-        store_normal(normal, known, mul_add(relative, Floats(1.07F), Floats(5 * kFloatRoundoff)));
-        const float error = (kUnitError + 5 * kFloatRoundoff) * static_cast<float>(longest_row) +
-                            3 * kFloatRoundoff * static_cast<float>(max_norm(map.center)) +
+            inverse * Floats(size * (kUnitError + roundings(4)) * kSecondRound);
+        const RayMask known = unit.known & (relative < Floats(kSmall));
+        store_normal(normal, known, mul_add(relative, Floats(kSecondOrder), Floats(roundings(5))));
+        const float error = (kUnitError + roundings(5)) * static_cast<float>(longest_row) +
+                            roundings(3) * static_cast<float>(max_norm(map.center)) +
                             tables_.bounds.world_rounding;
         store_point(point, known, error);
     }
@@ -301,7 +300,7 @@ class SmoothNormalLanes {
         if (!solid) {
             const float longest = tables_.rays.longest;
             known =
-                abs(along) > mul_add(error, Floats(longest), Floats(8 * kFloatRoundoff * longest));
+                abs(along) > mul_add(error, Floats(longest), Floats(roundings(8) * longest));
             for (Floats& n : normal) n = select(along > Floats(0.0F), -n, n);
         }
         store_normal(normal, known, error);
@@ -358,11 +357,11 @@ class SmoothNormalLanes {
         for (const Floats& n : smooth_) square = mul_add(n, n, square);
         const Floats inverse = inverse_sqrt(square);
         const Floats relative = smooth_error_ * inverse;
-        const RayMask known = relative < Floats(kSmallEnough);
+        const RayMask known = relative < Floats(kSmall);
         Floats normal[3];
         for (int i = 0; i < 3; ++i) normal[i] = smooth_[i] * inverse;
         store_normal(normal, known,
-                     mul_add(relative, Floats(1.07F), Floats(4.8F * kFloatRoundoff)));
+                     mul_add(relative, Floats(kSecondOrder), Floats(roundings(1.5 + 1) + kInverseSqrtError)));
     }
 
     // Weights V / S and W / S as surface_point() has them. Below 2^-49 of its magnitudes a triple

@@ -59,10 +59,10 @@ class SmoothFunctions {
         store_rounded(x, values_[9]);
         store_rounded(y, values_[10]);
         // Of each sum in float: the coefficients' rounding, and 3 of the two operations.
-        const Wide roundings = abs(scale) * Wide(4.1 * static_cast<double>(kFloatRoundoff));
-        store_rounded(mul_add(roundings, size_of(at), abs(scale) * noise), values_[11]);
-        store_rounded(roundings * size_of(right), values_[12]);
-        store_rounded(roundings * size_of(down), values_[13]);
+        const Wide rounding = abs(scale) * Wide(static_cast<double>(roundings(4)));
+        store_rounded(mul_add(rounding, size_of(at), abs(scale) * noise), values_[11]);
+        store_rounded(rounding * size_of(right), values_[12]);
+        store_rounded(rounding * size_of(down), values_[13]);
     }
 
     void store(std::size_t i, SmoothTriangle& out) const {

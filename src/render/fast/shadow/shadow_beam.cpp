@@ -9,7 +9,7 @@ namespace nuvo {
 namespace {
 
 // Four roundings: of the light's place, of a difference and of a bound.
-constexpr float kRounding = 4 * kFloatRoundoff;
+constexpr float kRounding = roundings(4);
 
 // Seen from a light nearby the rays to a box stay within its pyramid; from the box to the light
 // they are as good as parallel.

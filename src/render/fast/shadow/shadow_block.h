@@ -85,7 +85,7 @@ class ShadowBlock {
 
   private:
     // Outweighs the roundings of the sum that it multiplies.
-    static constexpr float kRounded = 1 + 4 * kFloatRoundoff;
+    static constexpr float kRounded = 1 + roundings(4);
 
     template <typename SlotOf>
     HWY_INLINE void test_triangle(const ShadowContext& context, const ShadowPlanes& planes,

@@ -182,7 +182,7 @@ bool ShadowTables::outside_of_all(const LightPoint& light) const {
     const Bounds3T<float>& box = scene_.octree().bounds;
     // As in side(), where no quadric is larger than the scene reaches.
     const double error = rounded_up(kQuadricError * scene_.reach() + quadric_touch_);
-    const double margin = 2 * error + 8 * kFloatRoundoff * scene_.reach();
+    const double margin = 2 * error + roundings(8) * scene_.reach();
     for (int axis = 0; axis < 3; ++axis)
         if (light.toward[axis] > (box.max[axis] + margin) * light.weight ||
             light.toward[axis] < (box.min[axis] - margin) * light.weight)
@@ -204,7 +204,7 @@ LightSide ShadowTables::side(const LightPoint& light, const Quadric& shape,
     const double distance = length(from * light.weight - light.toward);
     const double radius = shape.radius * light.weight;
     const double error = quadric_touch_ + kQuadricError * size_of(shape);
-    const double margin = 2 * error * light.weight + 4 * kFloatRoundoff * radius;
+    const double margin = 2 * error * light.weight + roundings(4) * radius;
     if (distance > radius + margin) return LightSide::kOutside;
     if (!(distance < radius - margin)) return LightSide::kUnknown;
     const bool blind = scene_.front_only(object) && std::holds_alternative<Sphere>(object.shape);

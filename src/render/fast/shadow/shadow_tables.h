@@ -18,13 +18,13 @@ namespace nuvo {
 
 /// The sign of n.P + w is sure beyond so many roundings of P, and beyond P's own error.
 /// [numerics: shadow planes]
-inline constexpr float kPlaneError = 24 * kFloatRoundoff;
+inline constexpr float kPlaneError = roundings(24);
 
 /// In units of |P|, or of a quadric's |centre| or radius: center and point rounded and subtracted
 /// (6), the vector to the nearest point of the line (12) at a parameter that is itself rounded
 /// (20), its square and the radius (13), the direction to the light, which carries the roundings of
 /// both its ends (35).
-inline constexpr float kQuadricError = 128 * kFloatRoundoff;
+inline constexpr float kQuadricError = roundings(128);
 
 /// What a light needs: of all items, each at the place of its slot, or of those that may stand
 /// before a wanted point, in a list.

@@ -6,6 +6,7 @@
 #define NUVO_RENDER_FAST_VECTOR_MATH_H_
 #endif
 
+#include "fast/simd/estimate_error.h"
 #include "fast/simd/lanes.h"
 #include "nuvo/math/error_bounds.h"
 
@@ -20,7 +21,6 @@ namespace nuvo::HWY_NAMESPACE {
 /// AVX-512's estimate e is within 2^-14: one Newton step leaves 1.5 * 2^-28, and the residual
 /// 1 - v e e, whose two roundings count by half, and the last sum 2 u. Elsewhere: a root and a
 /// quotient, each correctly rounded.
-inline constexpr float kInverseSqrtError = 2.2F * kFloatRoundoff;
 HWY_INLINE Floats inverse_sqrt(const Floats& v) {
 #if HWY_TARGET == HWY_AVX3
     Floats out;
@@ -38,7 +38,6 @@ HWY_INLINE Floats inverse_sqrt(const Floats& v) {
 
 /// 1 / v within kReciprocalError, relatively, of floats with normal reciprocals: the same with
 /// AVX-512's estimate of the reciprocal, whose step leaves 2^-28; elsewhere a quotient.
-inline constexpr float kReciprocalError = 1.2F * kFloatRoundoff;
 HWY_INLINE Floats reciprocal(const Floats& v) {
 #if HWY_TARGET == HWY_AVX3
     Floats out;
@@ -65,7 +64,7 @@ HWY_INLINE Floats polynomial(const float (&coefficients)[kCount], const Floats& 
 /// relatively, the product y with the exponent 4 u; 2^y sees it times y ln 2, and 2^y |y| ln 2 <=
 /// 0.37: 1.5 u; its own polynomial and scaling add 3 u. Below 2^-60 the result stays there:
 /// subnormal numbers are slow.
-inline constexpr float kPowerError = 6 * kFloatRoundoff;
+inline constexpr float kPowerError = roundings(6);
 HWY_INLINE Floats power_of_complement(const Floats& z, const Floats& exponent) {
     // log2(1 + f) / f on sqrt(1/2) - 1 .. sqrt(2) - 1, within 2^-27.6
     static constexpr float kLog[] = {
@@ -105,7 +104,7 @@ inline constexpr float kArcSineByItsSine[] = {0.999999995984F,  0.166667820058F,
 /// The arc sine of 0 <= x <= sqrt(1/2), within kArcSineError, relatively: above 1/2 it is pi / 2 -
 /// 2 asin(sqrt((1 - x) / 2)), at least 0.52, off by pi's rounding, a difference and twice the
 /// arc's, of which the root has one rounding, the polynomial and its product three.
-inline constexpr float kArcSineError = 16 * kFloatRoundoff;
+inline constexpr float kArcSineError = roundings(16);
 HWY_INLINE Floats arc_sine(const Floats& x) {
     constexpr float kPi = 3.14159265F;
     const auto upper = x > Floats(0.5F);
@@ -119,7 +118,7 @@ HWY_INLINE Floats arc_sine(const Floats& x) {
 /// over 4 * 10^6 numbers): pi / 2 - asin(x), near the ends 2 asin(sqrt((1 - |x|) / 2)), where 1 -
 /// |x| is exact. Of results near pi:
 /// pi's rounding 1.5 u, two differences of 2 u, and twice the arc's.
-inline constexpr float kArcError = 8 * kFloatRoundoff;
+inline constexpr float kArcError = roundings(8);
 HWY_INLINE Floats arc_cosine(const Floats& x) {
     constexpr float kPi = 3.14159265F;
     const Floats size = abs(x);

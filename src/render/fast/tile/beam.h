@@ -82,7 +82,7 @@ class BeamSlabs {
 
   private:
     // A bound is a difference, a quotient of roundings below: 4 units of 2^-24, here twice that.
-    static constexpr float kWiden = 8 * kFloatRoundoff;
+    static constexpr float kWiden = roundings(8);
 
     HWY_INLINE void set_exit(int axis, bool bounds_below, float inverse) {
         other_entry_scale_[axis] = bounds_below ? inverse * (1 - kWiden) : 0;
