@@ -21,6 +21,7 @@ FastOptions fast_options(const ContestOptions& options, std::optional<OctreeType
     FastOptions fast;
     fast.type = type;
     fast.isa = instruction_set(options.isa);
+    fast.back_faces = options.back_faces;
     return fast;
 }
 
@@ -159,6 +160,7 @@ std::size_t pixels_unlike_exact(const Scene& scene, const ContestOptions& option
     const Primitives primitives = flatten(scene, LeafContent::kPrimitives);
     Profile profile = exact_profile();
     profile.walk = WalkChoice::kDescent;
+    profile.back_faces = options.back_faces;
     const Octree octree = build_tree(scene, primitives, profile);
     const Image exact = render(scene, primitives, octree, profile, options.resolution);
     std::size_t differing = 0;

@@ -18,6 +18,8 @@ struct ContestOptions {
     int rounds = 9;
     /// None: the one that the tracer measures to be smaller.
     std::vector<std::optional<OctreeType>> types{OctreeType::kNonuniform, OctreeType::kUniform};
+    /// Of nuvo's frames; Embree sees all faces, and nuvo's single rays do.
+    BackFaces back_faces = BackFaces::kSolid;
     std::string isa;  ///< "avx512", "avx2", "sse4.2" or "sse2", for both; empty: the best
     std::string parts = "frame,check,rays,exactness,threads";
     std::optional<std::string> pov;       ///< write the scene for POV-Ray here and do nothing else

@@ -19,6 +19,7 @@ constexpr std::string_view kUsage =
     "  --res=W,H        size of the pictures (1920,1080)\n"
     "  --type=NAME      uniform, nonuniform or measured octrees only\n"
     "  --isa=NAME       avx512, avx2, sse4.2 or sse2 for both sides (the best)\n"
+    "  --back-faces=draw  nuvo's frames see all faces, too, as Embree's do\n"
     "  --parts=LIST     of frame, check, rays, exactness, threads (all, with commas)\n"
     "  --pictures=NAME  write NAME-ours.bmp and NAME-embree.bmp\n"
     "  --pov=FILE       write the scene for POV-Ray and stop\n";
@@ -70,6 +71,9 @@ ContestOptions parse(const std::vector<std::string_view>& arguments) {
         } else if (name == "--isa") {
             options.isa = value;
             instruction_set(options.isa);
+        } else if (name == "--back-faces") {
+            if (value != "draw") throw std::invalid_argument(std::string(argument) + ": not draw");
+            options.back_faces = BackFaces::kDraw;
         } else if (name == "--parts") {
             options.parts = value;
         } else if (name == "--pictures") {
