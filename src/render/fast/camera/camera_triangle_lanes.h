@@ -101,8 +101,7 @@ class TriangleMaker {
         store_rounded(select(known_, dot(plane, right_), zero), columns_.at[0][i]);
         store_rounded(select(known_, dot(plane, down_), zero), columns_.at[1][i]);
         store_rounded(select(known_, dot(plane, forward_), zero), columns_.at[2][i]);
-        const Wide whole =
-            error + bound(plane) * (relative + Wide(roundings(kCameraRoundings)));
+        const Wide whole = error + bound(plane) * (relative + Wide(roundings(kCameraRoundings)));
         const Wide up = whole * Wide(1 + roundings(2)) + Wide(kFloatUnderflow);
         store_rounded(select(known_, up, Wide(std::numeric_limits<double>::infinity())),
                       columns_.at[3][i]);

@@ -234,8 +234,7 @@ class CubeRanges {
         // W_k >= least; as much again for what |u| may be above.
         const RayMask deep = least > error_ * Floats(kNear);
         const Floats inverse_least = Floats(1.0F) / least;
-        const Floats margin =
-            mul_add(error_ * Floats(8.0F), inverse_least, Floats(roundings(8)));
+        const Floats margin = mul_add(error_ * Floats(8.0F), inverse_least, Floats(roundings(8)));
         for (int i = 0; i < 2; ++i) {
             const auto [low, high] = range(axes[i], k, upper, inverse_least, most);
             out.low[i] = select(deep, low - margin, Floats(-2.0F));

@@ -60,8 +60,8 @@ class SphereConics {
         const Floats slope = abs(mul_add(xx + xx, x, mul_add(xy, y, Floats(x_[i])))) +
                              abs(mul_add(yy + yy, y, mul_add(xy, x, Floats(y_[i]))));
         const Floats bend = (abs(xx) + abs(xy) + abs(yy)) * Floats(kHalfBlock);
-        const Floats most = mul_add((slope + bend) * Floats(1 + roundings(16)),
-                                    Floats(kHalfBlock), discriminant(i, x, y));
+        const Floats most = mul_add((slope + bend) * Floats(1 + roundings(16)), Floats(kHalfBlock),
+                                    discriminant(i, x, y));
         return (most >= Floats(-error_[i])).bits() & blocks;
     }
 

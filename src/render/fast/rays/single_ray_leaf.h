@@ -178,10 +178,9 @@ HWY_INLINE LeafHits test_triangles(const RayAtLeaf& ray, const std::uint16_t* co
     const LeafFloats share = slope_error * abs(inverse);
     const LeafMask crossing = share < LeafFloats(0.5F);
     // Room for the roundings of the bound itself, and of the product above.
-    const LeafFloats error =
-        mul_add(abs(along), slope_error, height_error) * abs(inverse) *
-            mul_add(share, LeafFloats(2.0F), LeafFloats(1 + roundings(16))) +
-        abs(along) * LeafFloats(roundings(4));
+    const LeafFloats error = mul_add(abs(along), slope_error, height_error) * abs(inverse) *
+                                 mul_add(share, LeafFloats(2.0F), LeafFloats(1 + roundings(16))) +
+                             abs(along) * LeafFloats(roundings(4));
     ray.set_interval(hits, along, error);
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
     hits.low = select(crossing, hits.low, LeafFloats(-kInfinity));
@@ -225,8 +224,7 @@ HWY_INLINE LeafHits test_spheres(const RayAtLeaf& ray, const float* values, std:
     const LeafFloats half = sqrt(max(depth, LeafFloats(0.0F)) * inverse);
     // sqrt(depth +- error) differs by less than error / sqrt(depth); |d| >= 1.
     const LeafFloats half_error = select(
-        meets,
-        depth_error / (half * LeafFloats(ray.square)) + half * LeafFloats(roundings(8)),
+        meets, depth_error / (half * LeafFloats(ray.square)) + half * LeafFloats(roundings(8)),
         sqrt(depth_error + depth_error));
     const LeafFloats slack =
         half_error + error +

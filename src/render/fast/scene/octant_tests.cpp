@@ -238,10 +238,8 @@ void clear_spheres(const LocalSphere* spheres, std::uint32_t first, const CutVox
         const Floats outer = mul_add(radius, Floats(roundings(2)), radius) + kSmallest;
         const Floats inner =
             max(neg_mul_add(radius, Floats(roundings(2)), radius) - kSmallest, zero);
-        const Floats most =
-            mul_add(outer * outer, Floats(1 + roundings(16)), Floats(kSmallest));
-        const Floats least =
-            mul_add(inner * inner, Floats(1 - roundings(16)), Floats(-kSmallest));
+        const Floats most = mul_add(outer * outer, Floats(1 + roundings(16)), Floats(kSmallest));
+        const Floats least = mul_add(inner * inner, Floats(1 - roundings(16)), Floats(-kSmallest));
         Cleared cleared;
         for (unsigned o = 0; o < 8; ++o) {
             const unsigned x = o & 1;

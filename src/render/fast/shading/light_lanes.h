@@ -163,9 +163,8 @@ HWY_INLINE Lobe specular_lobe(const Floats (&normal)[3], const Floats (&toward)[
     }
     const Floats inverse = inverse_sqrt(square);
     // The sum's rounding (of a length up to 2); the square's 3 u by half, the root, the product.
-    const Floats halfway_error =
-        small_error((directions_error + Floats(roundings(2))) * inverse) +
-        Floats(roundings(1.5 + 1) + kInverseSqrtError);
+    const Floats halfway_error = small_error((directions_error + Floats(roundings(2))) * inverse) +
+                                 Floats(roundings(1.5 + 1) + kInverseSqrtError);
     Floats between(0.0F);
     for (int axis = 0; axis < 3; ++axis) {
         const Floats difference = neg_mul_add(sum[axis], inverse, normal[axis]);
@@ -175,8 +174,7 @@ HWY_INLINE Lobe specular_lobe(const Floats (&normal)[3], const Floats (&toward)[
     const Floats length = between * above_inverse_sqrt(between + Floats(kTiny));
     const Floats error = normal_error + halfway_error;
     const Floats z_error =
-        mul_add(length, error, mul_add(error, error, z * Floats(roundings(6)))) *
-        Floats(kSlack);
+        mul_add(length, error, mul_add(error, error, z * Floats(roundings(6)))) * Floats(kSlack);
 
     const Floats cosine = one - z;
     const Floats power = power_of_complement(min(z, Floats(kBelowOne)), exponent);

@@ -137,8 +137,7 @@ class TileFinisher {
         MaterialLanes material;
         find_materials(b, hit, material);
         const bool specular = (tables_.any_flags & kSpecularFlag) != 0;
-        const float rounding =
-            kSlack * roundings(3 + static_cast<double>(tables_.lights.size()));
+        const float rounding = kSlack * roundings(3 + static_cast<double>(tables_.lights.size()));
         PixelColors out;
         Floats brightest;
         sum(scratch_.diffuse, first, material.emissive, material.diffuse, out, brightest);

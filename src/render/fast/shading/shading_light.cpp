@@ -101,8 +101,7 @@ class LightSampler {
                                     Floats(light_.cosine_error))};
         } else {
             const Floats value = cosine * toward.inverse;
-            const Floats relative =
-                toward.relative + Floats(roundings(2) + tint_rounding_);
+            const Floats relative = toward.relative + Floats(roundings(2) + tint_rounding_);
             return {value,
                     mul_add(abs(value), relative, Floats(light_.cosine_error) * toward.inverse)};
         }
@@ -118,13 +117,12 @@ class LightSampler {
             dot = mul_add(n, toward.unit(light_, axis), dot);
         }
         const Floats gain(light_.gain);
-        const Floats error = normal_error(b) + direction_error(toward) +
-                             Floats(roundings(3) + tint_rounding_);
+        const Floats error =
+            normal_error(b) + direction_error(toward) + Floats(roundings(3) + tint_rounding_);
         return {dot * gain, mul_add(abs(dot), Floats(roundings(3)), error) * gain};
     }
     HWY_INLINE Floats normal_error(int b) const {
-        constexpr float kTableError =
-            roundings(1) + static_cast<float>(kTriangleNormalError);
+        constexpr float kTableError = roundings(1) + static_cast<float>(kTriangleNormalError);
         return select(RayMask::from_bits(scratch_.smooth[b]),
                       Floats::load(scratch_.normal_error + b * kBlockLanes), Floats(kTableError));
     }
@@ -174,14 +172,14 @@ class LightSampler {
             }
             // The view's: d's own, 2 halves of |d|^2, the root's and the product's.
             const Floats directions_error =
-                direction_error(toward) + Floats(tables_.rays.relative + roundings(1 + 1) + kInverseSqrtError);
+                direction_error(toward) +
+                Floats(tables_.rays.relative + roundings(1 + 1) + kInverseSqrtError);
             lobe = specular_lobe(normal, to_light, to_viewer, normal_error(first / kBlockLanes),
                                  directions_error, of_materials(first, &ShadingMaterial::exponent));
             lobe.perhaps = lobe.perhaps & shiny;
             const Floats gain(light_.gain);
             lobe.error =
-                mul_add(lobe.value, Floats(roundings(3) + tint_rounding_), lobe.error) *
-                gain;
+                mul_add(lobe.value, Floats(roundings(3) + tint_rounding_), lobe.error) * gain;
             lobe.value = lobe.value * gain;
             if (factor != nullptr) {
                 lobe.error = mul_add(lobe.value, factor->error, lobe.error);

@@ -276,8 +276,7 @@ class SmoothNormalLanes {
         for (Floats& n : normal) n = n * inverse * Floats(turn);
         // The sum carries the roundings of its matrix and 3 more of each term.
         const auto size = static_cast<float>(std::sqrt(squares));
-        const Floats relative =
-            inverse * Floats(size * (kUnitError + roundings(4)) * kSecondRound);
+        const Floats relative = inverse * Floats(size * (kUnitError + roundings(4)) * kSecondRound);
         const RayMask known = unit.known & (relative < Floats(kSmall));
         store_normal(normal, known, mul_add(relative, Floats(kSecondOrder), Floats(roundings(5))));
         const float error = (kUnitError + roundings(5)) * static_cast<float>(longest_row) +
@@ -299,8 +298,7 @@ class SmoothNormalLanes {
         RayMask known = lanes_;
         if (!solid) {
             const float longest = tables_.rays.longest;
-            known =
-                abs(along) > mul_add(error, Floats(longest), Floats(roundings(8) * longest));
+            known = abs(along) > mul_add(error, Floats(longest), Floats(roundings(8) * longest));
             for (Floats& n : normal) n = select(along > Floats(0.0F), -n, n);
         }
         store_normal(normal, known, error);
@@ -361,7 +359,8 @@ class SmoothNormalLanes {
         Floats normal[3];
         for (int i = 0; i < 3; ++i) normal[i] = smooth_[i] * inverse;
         store_normal(normal, known,
-                     mul_add(relative, Floats(kSecondOrder), Floats(roundings(1.5 + 1) + kInverseSqrtError)));
+                     mul_add(relative, Floats(kSecondOrder),
+                             Floats(roundings(1.5 + 1) + kInverseSqrtError)));
     }
 
     // Weights V / S and W / S as surface_point() has them. Below 2^-49 of its magnitudes a triple

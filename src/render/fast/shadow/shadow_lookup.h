@@ -239,7 +239,8 @@ class ShadowLookup {
             test_candidates();
             if ((block.waiting() & visit.lanes) == 0) return false;
         }
-        if (visit.begin >= visit.end || buffer_.entries[visit.begin].near > visit.depth) return false;
+        if (visit.begin >= visit.end || buffer_.entries[visit.begin].near > visit.depth)
+            return false;
         prefetch(visit);
         return true;
     }
