@@ -153,7 +153,7 @@ TEST(CameraBounds, HoldTheFunctionsOfTriangles) {
             }
         }
         // Twelve roundings of a function of at most 1.
-        for (int f = 0; f < 3; ++f) EXPECT_LT(widest[f], 12.02 * 0x1p-24);
+        for (int f = 0; f < 3; ++f) EXPECT_LT(widest[f], 12.01 * 0x1p-24);
         for (int k = 0; k < kKinds; ++k) EXPECT_GT(judged[k], k == 2 ? 20 : 100) << "kind " << k;
     }
 }

@@ -31,10 +31,10 @@ inline float rounded_up(double value) {
 constexpr double gamma(int n) { return n * kUnitRoundoff / (1 - n * kUnitRoundoff); }
 
 /// The same of float operations, n up to 512, rounded up by so much that sums of up to 512 such
-/// bounds, in floats, are bounds of the product, too: n u (1 + 2^-10). What goes through a square
+/// bounds, in floats, are bounds of the product, too: n u (1 + 2^-12). What goes through a square
 /// root counts by half, so n need not be whole.
 constexpr float roundings(double n) {
-    return static_cast<float>(n * (1 + 0x1p-10)) * kFloatRoundoff;
+    return static_cast<float>(n * (1 + 0x1p-12)) * kFloatRoundoff;
 }
 
 /// value + error exactly.
