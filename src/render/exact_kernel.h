@@ -56,7 +56,7 @@ class ExactKernelOf {
         std::optional<PrimitiveId> from;  // the primitive that is lit; none: the bias has left it
         const Light* light;
         // Another way from the same point: what blocks one blocks the point's light. [way_starts()]
-        std::optional<WayStart> across;
+        std::optional<WayStart> across = std::nullopt;
     };
     static constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -128,10 +128,11 @@ class ExactKernelOf {
         found.across = starts.second;
         return found;
     }
-    /// The other way of a shadow that has one.
-    std::optional<Shadow> across(const Shadow& of) const {
-        if (!of.across) return std::nullopt;
-        return shadow(*of.across, of.from, *of.light);
+    /// Whether `blocked` says so of a way from the lit point to the light: most points have one.
+    template <typename Blocked>
+    bool any_way(const Shadow& first, Blocked&& blocked) const {
+        if (blocked(first)) return true;
+        return first.across && blocked(shadow(*first.across, first.from, *first.light));
     }
 
     bool blocks(const Shadow& shadow, PrimitiveRange range) const {
@@ -172,10 +173,12 @@ class ExactKernelOf {
     }
     /// Whether `other` can be left out on all ways from the lit triangle to the light.
     bool leaves_in_light(PrimitiveId other, const Shadow& shadow) const {
-        return with_triangle(other, [&](const Triangle& o) {
-            return stays_behind(o, shadow) || with_triangle(*shadow.from, [&](const Triangle& lit) {
-                       return nuvo::leaves_in_light(o, lit, place_of(*shadow.light), counts_);
-                   });
+        const LightPlace light = place_of(*shadow.light);
+        return with_triangle(*shadow.from, [&](const Triangle& lit) {
+            return with_triangle(other, [&](const Triangle& o) {
+                return nuvo::leaves_in_light(o, lit, light, counts_) ||
+                       nuvo::stays_behind(o, lit, light, counts_);
+            });
         });
     }
     /// Whether the primitive that is lit stands in its own light.
@@ -220,19 +223,11 @@ class ExactKernelOf {
 
     Shadow shadow(const WayStart& start, std::optional<PrimitiveId> from,
                   const Light& light) const {
-        if (light.kind == Light::Kind::kDirectional)
-            return {ExactRay(Ray{start.point, -light.direction}, triangles_),
-                    kInfinity,
-                    start.error,
-                    from,
-                    &light,
-                    std::nullopt};
-        return {ExactRay::between(start.point, light.location, triangles_),
-                1,
-                start.error,
-                from,
-                &light,
-                std::nullopt};
+        const LightPlace place = place_of(light);
+        if (place.endless)
+            return {ExactRay(Ray{start.point, place.at}, triangles_), kInfinity, start.error, from,
+                    &light};
+        return {ExactRay::between(start.point, place.at, triangles_), 1, start.error, from, &light};
     }
 
     bool stays_behind(const Triangle& other, const Shadow& shadow) const {

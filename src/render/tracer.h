@@ -64,10 +64,11 @@ class Tracer {
     bool blocked(const Surface& surface, const Light& light) {
         ++shadow_rays_;
         const auto shadow = kernel_.shadow(surface, light);
-        if (search_.occluded(shadow)) return true;
-        if constexpr (requires { kernel_.across(shadow); })
-            if (const auto other = kernel_.across(shadow)) return search_.occluded(*other);
-        return false;
+        const auto occluded = [&](const auto& way) { return search_.occluded(way); };
+        if constexpr (requires { kernel_.any_way(shadow, occluded); })
+            return kernel_.any_way(shadow, occluded);
+        else
+            return occluded(shadow);
     }
 
     const Scene& scene_;

@@ -167,28 +167,40 @@ TEST(LightBuffer, ListsEveryItemThatBlocksAPointKnownWellEnough) {
     EXPECT_GT(blocked[true], 1000);
 }
 
-/// Stacks of so many spheres, 10 x 10 of them two units apart, and a light along them.
-Scene stacks(int of, double radius) {
-    Scene scene;
-    scene.materials.emplace_back();
-    for (int i = 0; i < 100 * of; ++i) {
-        Object object;
-        object.shape = Sphere{{2.0 * (i % 10), 2.0 * (i / 10 % 10), 2.0 * (i / 100)}, radius};
-        scene.objects.push_back(object);
+/// 10 x 10 stacks of so many spheres, two units apart, and a light along them.
+struct Stacks {
+    Stacks(int of, double radius)
+        : scene(scene_of(of, radius)),
+          primitives(flatten(scene, LeafContent::kPrimitives)),
+          fast(scene, primitives, OctreeType::kUniform, 1),
+          tables(fast, resolved(InstructionSet::kBest)) {
+        fill_tables(fast, 1, tables);
     }
-    scene.lights.resize(1);
-    scene.lights[0].direction = {0, 0, -1};
-    return scene;
-}
+
+    Scene scene;
+    Primitives primitives;
+    FastScene fast;
+    ShadowTables tables;
+
+  private:
+    static Scene scene_of(int of, double radius) {
+        Scene scene;
+        scene.materials.emplace_back();
+        for (int i = 0; i < 100 * of; ++i) {
+            Object object;
+            object.shape = Sphere{{2.0 * (i % 10), 2.0 * (i / 10 % 10), 2.0 * (i / 100)}, radius};
+            scene.objects.push_back(object);
+        }
+        scene.lights.resize(1);
+        scene.lights[0].direction = {0, 0, -1};
+        return scene;
+    }
+};
 
 TEST(LightBuffer, LongListsBeginNearTheLight) {
     for (const int of : {5, 500}) {
-        const Scene scene = stacks(of, 1.2);
-        const Primitives primitives = flatten(scene, LeafContent::kPrimitives);
-        const FastScene fast(scene, primitives, OctreeType::kUniform, 1);
-        ShadowTables tables(fast, resolved(InstructionSet::kBest));
-        fill_tables(fast, 1, tables);
-        const LightBuffer& buffer = tables.table(0).buffer;
+        const Stacks stacks(of, 1.2);
+        const LightBuffer& buffer = stacks.tables.table(0).buffer;
         ASSERT_TRUE(buffer.usable());
         EXPECT_EQ(buffer.near_first, of == 500);
         if (!buffer.near_first) continue;
@@ -207,19 +219,16 @@ TEST(LightBuffer, LongListsBeginNearTheLight) {
 
 TEST(LightBuffer, ListsFewItemsWhereNoneIsLarge) {
     // Of radius 0.1: the light sees 100 stacks of 10.
-    const Scene scene = stacks(10, 0.1);
-    const Primitives primitives = flatten(scene, LeafContent::kPrimitives);
-    const FastScene fast(scene, primitives, OctreeType::kUniform, 1);
-    ShadowTables tables(fast, resolved(InstructionSet::kBest));
-    fill_tables(fast, 1, tables);
-    const LightBuffer& buffer = tables.table(0).buffer;
+    const Stacks stacks(10, 0.1);
+    const LightPoint& light = stacks.tables.table(0).light;
+    const LightBuffer& buffer = stacks.tables.table(0).buffer;
     ASSERT_TRUE(buffer.usable());
     ASSERT_FALSE(buffer.map.inside);
     // Below the lowest sphere of a stack, and between the stacks.
-    const Point3 below = fast.frame().local({6, 4, -1});
-    EXPECT_EQ(listed(buffer, place_of(buffer, tables.table(0).light, below)).size(), 10U);
-    const Point3 between = fast.frame().local({7, 5, -1});
-    EXPECT_EQ(listed(buffer, place_of(buffer, tables.table(0).light, between)).size(), 0U);
+    const Point3 below = stacks.fast.frame().local({6, 4, -1});
+    EXPECT_EQ(listed(buffer, place_of(buffer, light, below)).size(), 10U);
+    const Point3 between = stacks.fast.frame().local({7, 5, -1});
+    EXPECT_EQ(listed(buffer, place_of(buffer, light, between)).size(), 0U);
 }
 
 }  // namespace

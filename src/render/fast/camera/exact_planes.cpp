@@ -30,12 +30,6 @@ ScaledVector::ScaledVector(const ExactVector& v) {
                 WideDouble(part[axis].significand(), part[axis].exponent() - exponent).rounded();
 }
 
-Triangle triangle_of(const FastScene& scene, Slot slot) {
-    const PrimitiveSource& source = scene.source(slot);
-    return std::get<TriangleMesh>(scene.scene().objects[source.object].shape)
-        .triangle(source.triangle);
-}
-
 void make_exact_camera_triangle(const CameraTrianglesJob& job, const Triangle& triangle,
                                 bool front_only, CameraTriangle& out, PixelBox& box) {
     const ExactPlane plane(triangle, job.eye);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fast/scene/fast_scene.h"
+#include "nuvo/geometry/triangle_mesh.h"
 #include "nuvo/math/exact.h"
 
 // Planes from exact arithmetic, for what double arithmetic cannot tell.
@@ -23,7 +23,5 @@ struct ScaledVector {
     Vector3 value;
     std::int64_t exponent = 0;  ///< of the factor's inverse
 };
-
-Triangle triangle_of(const FastScene& scene, Slot slot);
 
 }  // namespace nuvo

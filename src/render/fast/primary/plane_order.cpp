@@ -9,8 +9,8 @@
 namespace nuvo {
 PlaneOrder PlaneOrders::order_of(Slot first, Slot second) const {
     const Point3& eye = scene_.scene().camera.position;
-    const ExactPlane p(triangle_of(scene_, first), eye);
-    const ExactPlane q(triangle_of(scene_, second), eye);
+    const ExactPlane p(scene_.triangle(first), eye);
+    const ExactPlane q(scene_.triangle(second), eye);
     const int sign = p.constant.sign() * q.constant.sign();
     if (sign == 0) return {0, 0, 0, std::numeric_limits<float>::infinity()};
     const ExactVector difference{p.normal.x * q.constant - q.normal.x * p.constant,

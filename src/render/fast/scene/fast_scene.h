@@ -70,6 +70,11 @@ class FastScene {
     const Object& object(PrimitiveId id) const {
         return scene_.objects[primitives_.sources[id].object];
     }
+    /// The triangle of that slot; world space.
+    Triangle triangle(Slot slot) const {
+        const PrimitiveSource& from = source(slot);
+        return std::get<TriangleMesh>(scene_.objects[from.object].shape).triangle(from.triangle);
+    }
     /// All spheres and ellipsoids in document order, in which the scene is read fastest.
     QuadricSpan quadrics() const { return quadrics_; }
     /// One a few places after one of quadrics(), if there is any; its object is prefetched.

@@ -9,12 +9,6 @@ namespace {
 
 constexpr double kMuch = 0x1p-20;
 
-Triangle triangle_of(const FastScene& scene, Slot slot) {
-    const PrimitiveSource& source = scene.source(slot);
-    return std::get<TriangleMesh>(scene.scene().objects[source.object].shape)
-        .triangle(source.triangle);
-}
-
 // Ways from all points of `lit` run along its plane, which its corners tell well.
 bool all_graze(const Triangle& lit, const LightPlace& light) {
     const Vector3 e1 = lit.b - lit.a;
@@ -39,8 +33,8 @@ bool rises(const Triangle& plane, const Point3& corner) {
 
 PairShadow PairShadows::find(Slot lit, Slot occluder, std::size_t light) {
     const LightPlace place = place_of(scene_.scene().lights[light]);
-    const Triangle plane = triangle_of(scene_, lit);
-    const Triangle other = triangle_of(scene_, occluder);
+    const Triangle plane = scene_.triangle(lit);
+    const Triangle other = scene_.triangle(occluder);
     if (leaves_in_light(other, plane, place, counts_) || stays_behind(other, plane, place, counts_))
         return PairShadow::kNone;
     if (!all_graze(plane, place)) return PairShadow::kOpen;

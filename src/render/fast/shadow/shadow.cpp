@@ -98,9 +98,9 @@ class ShadowTracer {
 
     // The walk of a single point, in double.
     HWY_NOINLINE void walk_alone(std::uint32_t lane) {
-        const auto ray = shadow_ray(lane);
-        const auto other = fallback_.across(ray);
-        if (walk_along(ray, lane) || (other && walk_along(*other, lane))) block_lane(lane);
+        if (fallback_.any_way(shadow_ray(lane),
+                              [&](const auto& ray) { return walk_along(ray, lane); }))
+            block_lane(lane);
     }
     template <typename Shadow>
     bool walk_along(const Shadow& ray, std::uint32_t lane) {
@@ -154,13 +154,11 @@ class ShadowTracer {
             if (waiting && end - at > kMostOpenOfPoint) {
                 walk_alone(lane);
             } else if (waiting) {
-                const auto ray = shadow_ray(lane);
-                const auto other = fallback_.across(ray);
-                if (std::any_of(at, end, [&](const auto& o) {
-                        return fallback_.blocks(ray, o.item) ||
-                               (other && fallback_.blocks(*other, o.item));
-                    }))
-                    block_lane(lane);
+                const auto blocked = [&](const auto& ray) {
+                    return std::any_of(
+                        at, end, [&](const auto& o) { return fallback_.blocks(ray, o.item); });
+                };
+                if (fallback_.any_way(shadow_ray(lane), blocked)) block_lane(lane);
             }
             at = end;
         }

@@ -43,8 +43,11 @@ class ExactFallback {
 
     /// The shadow ray to a light from the point that pixel (x, y) shows on `lit`.
     Kernel::Shadow shadow_ray(int x, int y, Slot lit, std::size_t light) const;
-    /// The other way of the same point, where it has one.
-    auto across(const Kernel::Shadow& ray) const { return kernel_.across(ray); }
+    /// Whether `blocked` says so of that ray, or of the other one of the same point, if it has two.
+    template <typename Blocked>
+    bool any_way(const Kernel::Shadow& ray, Blocked&& blocked) const {
+        return kernel_.any_way(ray, blocked);
+    }
     /// Whether `occluder` stands on that ray. Most that floats leave open does not even come near,
     /// which a box tells at less cost.
     bool blocks(const Kernel::Shadow& ray, Slot occluder) const {
