@@ -46,7 +46,8 @@ class ShadowPicture {
     int wrong_pixels(InstructionSet isa) {
         ShadowTables tables(fast_, isa);
         fill_tables(fast_, 1, tables);
-        ShadowStage stage(tables, isa, true);
+        PairShadows pairs(fast_);
+        ShadowStage stage(tables, pairs, isa, true);
         int wrong = 0;
         for (int y = 0; y < size_.height; y += kTileSide)
             for (int x = 0; x < size_.width; x += kTileSide) wrong += wrong_in_tile(stage, x, y);

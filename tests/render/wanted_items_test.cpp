@@ -133,20 +133,18 @@ TEST(KeptShadows, ServePicturesOfOtherCameras) {
         for (const InstructionSet isa : supported_instruction_sets()) {
             const FastOptions options{OctreeType::kUniform, 2, isa};
             KeptShadows kept;
-            const ShadowTables* tables = nullptr;
             for (int picture = 0; picture < 4; ++picture) {
                 const Point3 eye = uniform_point(random, 1) + Vector3{0, 0, 2};
                 scene.camera = testing::camera_along(eye, Point3{} - eye);
                 const Image expected = testing::exact_picture(scene, primitives, kSize);
                 Frame frame(serial, options, kSize, nullptr, kept, ShadowListing::kKept);
                 EXPECT_EQ(testing::difference(expected, frame.render()), "") << "seed " << seed;
-                if (picture == 0) tables = kept.find(scene.lights);
-                ASSERT_NE(tables, nullptr);
-                EXPECT_FALSE(tables->complete());
-                EXPECT_EQ(kept.find(scene.lights), tables);
+                ASSERT_NE(kept.tables(), nullptr);
+                EXPECT_FALSE(kept.tables()->complete());
             }
             scene.lights.pop_back();
-            EXPECT_EQ(kept.find(scene.lights), nullptr);
+            kept.begin(fast, 1);
+            EXPECT_EQ(kept.tables(), nullptr);
         }
     }
 }

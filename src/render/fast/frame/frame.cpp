@@ -94,10 +94,10 @@ struct Frame::Tables {
                                   [&](QuadricSpan some) { camera->take_quadrics(some); });
             camera->finish();
             hits.seen.emplace(scene);
-        } else if ((shadow = kept.find(scene.scene().lights)) != nullptr && shadow->complete()) {
+        } else if ((shadow = kept.tables()) != nullptr && shadow->complete()) {
             fill_tables(scene, options.threads, *camera, *surfaces);
         } else {
-            shadow = &kept.keep(scene.scene().lights, [&] {
+            shadow = &kept.keep([&] {
                 ShadowTables all(scene, options.isa, options.threads);
                 fill_tables(scene, options.threads, all, *camera, *surfaces);
                 return all;
@@ -133,10 +133,12 @@ struct Frame::Tables {
 class Frame::Worker {
   public:
     /// `clocked`: spent() is asked for.
-    Worker(SerialTree& serial, Tables& tables, const FastOptions& options, bool clocked)
+    Worker(SerialTree& serial, Tables& tables, PairShadows& pairs, const FastOptions& options,
+           bool clocked)
         : serial_(serial),
           scene_(serial.scene()),
           tables_(tables),
+          pairs_(pairs),
           options_(options),
           clocked_(clocked),
           fallback_(scene_, tables.rays),
@@ -176,7 +178,7 @@ class Frame::Worker {
             return trace_serially(place.column * kMacroSide, place.row * kMacroSide, kMacroSide,
                                   image);
         if (!shadow_)
-            shadow_.emplace(*tables_.shadow, options_.isa, options_.redo_exactly,
+            shadow_.emplace(*tables_.shadow, pairs_, options_.isa, options_.redo_exactly,
                             tables_.new_points);
         if (tables_.two_passes) {
             shade(tables_.hits.tiles[i], tables_.hits.quadrics_of(i), image);
@@ -243,6 +245,7 @@ class Frame::Worker {
     SerialTree& serial_;
     const FastScene& scene_;
     Tables& tables_;
+    PairShadows& pairs_;
     const FastOptions& options_;
     bool clocked_;
     std::uint64_t found_ = 0;             // pixels
@@ -267,6 +270,7 @@ Frame::Frame(SerialTree& serial, const FastOptions& options, Resolution resoluti
       kept_(kept),
       listing_(listing) {
     StageClock clock(times != nullptr);
+    kept.begin(scene_, options.threads);
     tables_ = std::make_unique<Tables>(scene_, options, resolution, kept, listing);
     workers_.resize(static_cast<std::size_t>(options.threads));
     if (times != nullptr) clock.add_to(times->tables);
@@ -291,7 +295,8 @@ void Frame::for_each_tile(Work&& work) {
     for_each_index(options_.threads, tables_->tiles.size(), [&](std::size_t i, int thread) {
         std::unique_ptr<Worker>& worker = workers_[static_cast<std::size_t>(thread)];
         if (!worker)
-            worker = std::make_unique<Worker>(serial_, *tables_, options_, times_ != nullptr);
+            worker = std::make_unique<Worker>(serial_, *tables_, kept_.pairs(thread), options_,
+                                              times_ != nullptr);
         work(*worker, i);
     });
 }
@@ -312,8 +317,7 @@ void Frame::make_tables_of_hits() {
     const BigVector<Slot> seen = tables_->hits.seen->slots();
     for_each_chunk(scene_, seen, static_cast<Slot>(seen.size()), options_.threads,
                    [&](const TriangleChunk& chunk) { tables_->surfaces->take(chunk); });
-    const std::vector<Light>& lights = scene_.scene().lights;
-    tables_->shadow = kept_.find(lights);
+    tables_->shadow = kept_.tables();
     if (tables_->shadow != nullptr && serves(*tables_->shadow)) {
         tables_->new_points = true;
         return;
@@ -323,7 +327,7 @@ void Frame::make_tables_of_hits() {
     constexpr std::size_t kMostSeen = 4;
     const bool few =
         listing_ != ShadowListing::kMeasured || seen.size() * kMostSeen <= scene_.slot_end();
-    tables_->shadow = &kept_.keep(lights, [&] {
+    tables_->shadow = &kept_.keep([&] {
         if (few)
             return ShadowTables(scene_, options_.isa, options_.threads, find_wanted(has_moved));
         ShadowTables all(scene_, options_.isa, options_.threads);

@@ -1,34 +1,42 @@
 #pragma once
 
 #include <optional>
-#include <utility>
 #include <vector>
 
+#include "fast/shadow/pair_shadows.h"
 #include "fast/shadow/shadow_tables.h"
 
 namespace nuvo {
 
-/// The shadow tables of the last picture, for the next ones of a scene whose lights stay where they
-/// are: those of all items do not depend on the camera, others serve points for which they are
-/// known to list enough.
+/// What one picture leaves to the next ones of its scene while the lights stay where they are: the
+/// shadow tables, which do not depend on the camera if they are of all items and else serve points
+/// for which they are known to list enough; and what each thread knows of pairs of triangles.
 class KeptShadows {
   public:
+    /// Before a picture. Forgets what was kept for other lights.
+    void begin(const FastScene& scene, int threads) {
+        if (lights_ != scene.scene().lights) {
+            tables_.reset();
+            pairs_.clear();
+            lights_ = scene.scene().lights;
+        }
+        while (pairs_.size() < static_cast<std::size_t>(threads)) pairs_.emplace_back(scene);
+    }
     /// Null: there are none for these lights.
-    const ShadowTables* find(const std::vector<Light>& lights) const {
-        return tables_ && lights_ == lights ? &*tables_ : nullptr;
-    }
-    /// Frees what is kept, and keeps what `make` returns instead.
+    const ShadowTables* tables() const { return tables_ ? &*tables_ : nullptr; }
+    /// Frees the tables that are kept, and keeps what `make` returns instead.
     template <typename Make>
-    const ShadowTables& keep(const std::vector<Light>& lights, Make&& make) {
+    const ShadowTables& keep(Make&& make) {
         tables_.reset();
-        ShadowTables tables = make();
-        lights_ = lights;
-        return tables_.emplace(std::move(tables));
+        return tables_.emplace(make());
     }
+    /// For one thread at a time.
+    PairShadows& pairs(int thread) { return pairs_[static_cast<std::size_t>(thread)]; }
 
   private:
     std::vector<Light> lights_;
     std::optional<ShadowTables> tables_;
+    std::vector<PairShadows> pairs_;  // by thread
 };
 
 }  // namespace nuvo

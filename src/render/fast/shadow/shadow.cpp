@@ -186,9 +186,9 @@ HWY_AFTER_NAMESPACE();
 
 namespace nuvo {
 
-ShadowStage::ShadowStage(const ShadowTables& tables, InstructionSet isa, bool redo_exactly,
-                         bool new_points)
-    : job_{tables, redo_exactly, new_points}, trace_(NUVO_FOR_ISA(isa, trace_shadows)) {}
+ShadowStage::ShadowStage(const ShadowTables& tables, PairShadows& pairs, InstructionSet isa,
+                         bool redo_exactly, bool new_points)
+    : job_{tables, pairs, redo_exactly, new_points}, trace_(NUVO_FOR_ISA(isa, trace_shadows)) {}
 
 void ShadowStage::trace(const Tile& tile, std::size_t light, const TileMask& wanted,
                         const ExactFallback& fallback, TileMask& lit) {

@@ -26,20 +26,21 @@ struct OpenShadow {
 /// What one thread needs.
 struct ShadowJob {
     const ShadowTables& tables;
+    PairShadows& pairs;
     bool redo_exactly;
     bool new_points;  ///< others than those for which items were listed
     Mailbox mailbox{};
     std::vector<OpenShadow> open{};
-    PairShadows pair_shadows{tables.scene()};
     WalkPlanes walk_planes{tables};
 };
 
 /// Decides which points of a tile the lights reach. For one thread.
 class ShadowStage {
   public:
-    /// `new_points`: it is asked about others than those that were wanted of the tables.
-    ShadowStage(const ShadowTables& tables, InstructionSet isa, bool redo_exactly,
-                bool new_points = false);
+    /// `pairs`: of the same scene. `new_points`: it is asked about others than those that were
+    /// wanted of the tables. Keeps references.
+    ShadowStage(const ShadowTables& tables, PairShadows& pairs, InstructionSet isa,
+                bool redo_exactly, bool new_points = false);
 
     /// Sets in `lit` the lanes of `wanted` that nothing blocks from the light.
     void trace(const Tile& tile, std::size_t light, const TileMask& wanted,

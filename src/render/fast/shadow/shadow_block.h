@@ -106,7 +106,7 @@ class ShadowBlock {
             const std::uint32_t same = own(lit) & rest;
             rest &= ~same;
             if (lit >= context.job.tables.scene().triangle_end()) continue;
-            const PairShadow pair = context.job.pair_shadows.of(lit, slot, context.light);
+            const PairShadow pair = context.job.pairs.of(lit, slot, context.light);
             if (pair == PairShadow::kOpen) continue;
             lanes &= ~same;
             if (pair == PairShadow::kNone) continue;
