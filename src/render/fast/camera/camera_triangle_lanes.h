@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "fast/camera/camera_triangles.h"
-#include "fast/scene/wide_vectors.h"
+#include "fast/simd/wide_vectors.h"
 #include "nuvo/math/error_bounds.h"
 
 // u, v, w are the triple products of the ray's direction with the planes through the eye and an

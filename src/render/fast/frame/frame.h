@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "fast/frame/kept_shadows.h"
-#include "fast/scene/serial_tree.h"
+#include "fast/tile/serial_tree.h"
 #include "nuvo/image/image.h"
 #include "nuvo/render/fast.h"
 

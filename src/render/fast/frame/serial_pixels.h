@@ -1,7 +1,7 @@
 #pragma once
 
 #include "chosen.h"
-#include "fast/scene/serial_tree.h"
+#include "fast/tile/serial_tree.h"
 #include "tracer.h"
 
 namespace nuvo {

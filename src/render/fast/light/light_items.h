@@ -22,6 +22,10 @@ inline float size_of(const Quadric& quadric) {
     return size;
 }
 
+/// Where a light stands towards a quadric; kBlind: it sees no front of it, or the shape casts
+/// no shadow.
+enum class LightSide : std::uint8_t { kOutside, kInside, kBlind, kUnknown };
+
 /// What may stand in a light's way: items by their places in a list.
 struct LightItems {
     const FastScene& scene;

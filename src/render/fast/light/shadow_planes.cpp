@@ -9,7 +9,7 @@
 #define HWY_TARGET_INCLUDE "fast/light/shadow_planes.cpp"
 #include <hwy/foreach_target.h>
 
-#include "fast/scene/wide_vectors.h"
+#include "fast/simd/wide_vectors.h"
 
 // Eight triangles at a time in double. With the light at l / h, v = h a - l and edges e1 = b - a,
 // e2 = c - a: the plane through light and edge e is e x v, the triangle's own e1 x e2, and

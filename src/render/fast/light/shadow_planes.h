@@ -1,12 +1,26 @@
 #pragma once
 
+#include <cstdint>
+
 #include "fast/light/light_point.h"
-#include "fast/light/shadow_geometry.h"
 #include "fast/scene/fast_scene.h"
 #include "fast/scene/triangle_chunk.h"
 #include "nuvo/render/fast.h"
 
+// What a triangle hides from a light is a cone cut off by the triangle: the points on the inner
+// side of the three planes through the light and an edge, and beyond the triangle's own (shadow
+// volumes: Crow 1977, "Shadow algorithms for computer graphics"). All four are affine functions of
+// the point, for a light at a place and for one in a direction alike; so a shadow ray against a
+// triangle is 12 multiplications and additions and a minimum.
+
 namespace nuvo {
+
+/// Four functions n.P + w of a point P of the local frame, |n|_1 = 1, positive where the triangle
+/// hides P from the light. The first three belong to the edges, the last to the triangle's plane.
+/// One that double arithmetic cannot place well enough is 0 everywhere: it decides nothing.
+struct alignas(64) ShadowPlanes {
+    float plane[4][4];  ///< n, w
+};
 
 /// The planes of triangles as `light` sees them. `reach` bounds the coordinates of the scene in the
 /// local frame.

@@ -2,7 +2,7 @@
 
 #include "fast/camera/camera_triangles.h"
 #include "fast/scene/fast_scene.h"
-#include "fast/scene/pair_cache.h"
+#include "fast/tile/pair_cache.h"
 
 // Which of two triangles is nearer, for all pixels at once. On the ray of the pixel coordinates X,
 // Y the planes of two triangles are met at t and t'; the difference 1 / t - 1 / t' is affine in X,

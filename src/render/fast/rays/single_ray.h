@@ -11,7 +11,7 @@
 #include "fast/rays/pair_roots.h"
 #include "fast/rays/ray_state.h"
 #include "fast/rays/wide_octree.h"
-#include "fast/scene/serial_tree.h"
+#include "fast/tile/serial_tree.h"
 #include "nuvo/render/fast.h"
 
 // Rays that have nothing in common, each on its own: a step decides on 16 voxels or 16

@@ -8,7 +8,7 @@
 #define HWY_TARGET_INCLUDE "fast/scene/local_triangles.cpp"
 #include <hwy/foreach_target.h>
 
-#include "fast/scene/wide_vectors.h"
+#include "fast/simd/wide_vectors.h"
 
 // Eight triangles at a time: moved and scaled in double, rounded to float, and boxes around what
 // that gives, wider by one unit in the last place and more, at least by the smallest normal number.

@@ -9,8 +9,8 @@
 #define HWY_TARGET_INCLUDE "fast/shading/shading_cosines.cpp"
 #include <hwy/foreach_target.h>
 
-#include "fast/scene/wide_vectors.h"
 #include "fast/shading/wide_triangles.h"
+#include "fast/simd/wide_vectors.h"
 
 // Normals of triangles and what they say about each light, in double, 8 triangles at a time.
 //

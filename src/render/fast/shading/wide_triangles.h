@@ -8,8 +8,8 @@
 
 #include <cstddef>
 
-#include "fast/scene/wide_vectors.h"
 #include "fast/shading/shading_tables.h"
+#include "fast/simd/wide_vectors.h"
 
 // The functions of smooth triangles, 8 at a time.
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "fast/scene/fast_scene.h"
-#include "fast/scene/pair_cache.h"
+#include "fast/tile/pair_cache.h"
 #include "nuvo/geometry/predicates.h"
 
 namespace nuvo {

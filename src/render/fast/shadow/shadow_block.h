@@ -92,15 +92,16 @@ class ShadowBlock {
                                   SlotOf&& slot_of, std::uint32_t lanes) {
         const Floats depth = hidden(planes, points_);
         block((depth > plane_error_).bits());
-        const std::uint32_t open = waiting_ & lanes & ~(depth < -plane_error_).bits();
+        std::uint32_t open = waiting_ & lanes & ~(depth < -plane_error_).bits();
+        if (open == 0) return;
+        const Slot slot = slot_of();
+        open &= ~own(slot);  // it does not hide its own points
         if (HWY_UNLIKELY(open != 0))
-            leave_triangle(context, planes, slot_of(), open, depth > Floats(0.0F));
+            leave_triangle(context, planes, slot, open, depth > Floats(0.0F));
     }
-    // A triangle does not hide its own points; of those of other triangles it is asked what it does
-    // to all of them.
+    // Of other triangles' points it is asked what it does to all of a triangle's.
     HWY_NOINLINE void leave_triangle(const ShadowContext& context, const ShadowPlanes& planes,
                                      Slot slot, std::uint32_t lanes, const RayMask& rounded) {
-        lanes &= ~own(slot);
         for (std::uint32_t rest = lanes; rest != 0;) {
             const auto lit = static_cast<Slot>(slots_[std::countr_zero(rest)]);
             const std::uint32_t same = own(lit) & rest;

@@ -6,7 +6,7 @@
 
 #include "fast/light/light_buffer.h"
 #include "fast/light/light_point.h"
-#include "fast/light/shadow_geometry.h"
+#include "fast/light/shadow_planes.h"
 #include "fast/light/wanted_depths.h"
 #include "fast/scene/fast_scene.h"
 #include "fast/scene/triangle_chunk.h"

@@ -9,16 +9,15 @@
 #include <cstddef>
 #include <cstring>
 
-#include "fast/scene/triangle_chunk.h"
 #include "fast/simd/lanes.h"
 
-// Vectors of 8 doubles, one for each triangle of a batch, and the way from such columns to records
-// of 16 floats side by side.
+// Vectors of 8 doubles, one for each triangle of a TriangleBatch, and the way from such columns to
+// records of 16 floats side by side.
 
 HWY_BEFORE_NAMESPACE();
 namespace nuvo::HWY_NAMESPACE {
 
-inline constexpr std::size_t kBatch = TriangleBatch::kSize;
+inline constexpr std::size_t kBatch = 8;
 using Wide = Lanes<double, kBatch>;
 
 /// Each number rounded to the nearest float.
