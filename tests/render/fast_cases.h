@@ -66,7 +66,7 @@ inline void expect_identical(const Scene& scene, const std::vector<Resolution>& 
                 FastTracer tracer(scene, primitives, options);
                 const FastScene fast(scene, primitives, type, count);
                 SerialTree serial(fast);
-                KeptShadows kept[3];
+                KeptTables kept[3];
                 for (std::size_t i = 0; i < (count == 1 ? sizes.size() : 1); ++i) {
                     EXPECT_EQ(difference(expected[i], tracer.render(sizes[i])), "")
                         << text(options, sizes[i]);

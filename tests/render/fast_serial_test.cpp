@@ -23,7 +23,7 @@ struct Subject {
           serial(fast) {}
 
     Image picture(int threads = 1, ShadowListing listing = ShadowListing::kAll) {
-        KeptShadows kept;
+        KeptTables kept;
         const FastOptions options{OctreeType::kUniform, threads};
         return Frame(serial, options, kSize, nullptr, kept, listing).render();
     }

@@ -162,7 +162,7 @@ class Judge {
                 (std::holds_alternative<Sphere>(shown.object(tile, lane).shape) ? curved_point
                                                                                 : point)
                     .judge(off(tile.point, lane, shown.local(truth.point)), error, 0, "point");
-            if (by_normal || !shown.tables.normals.empty()) {
+            if (by_normal || !shown.tables.triangles.normals.empty()) {
                 const double allowed =
                     by_normal ? static_cast<double>(scratch.normal_error[lane]) : 1.1 * 0x1p-24;
                 if (std::isfinite(tile.normal[0][lane]))

@@ -124,8 +124,8 @@ TEST_F(TriangleChunkTest, TablesDoNotDependOnWhenAndByHowManyTheyAreFilled) {
                                 &shadow_later.table(light).planes[slot], sizeof(ShadowPlanes)),
                     0);
             }
-            EXPECT_TRUE(
-                same_bytes(shading.lights[light].cosines, shading_later.lights[light].cosines));
+            EXPECT_TRUE(same_bytes(shading.triangles.cosines[light],
+                                   shading_later.triangles.cosines[light]));
         }
     }
 }

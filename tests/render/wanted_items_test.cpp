@@ -120,32 +120,47 @@ TEST(WantedItems, HoldWhateverBlocksAWantedPoint) {
     EXPECT_GT(left_out, 300 * sets);
 }
 
-// Points that a picture did not show may be shown by the next: they walk the octree.
-TEST(KeptShadows, ServePicturesOfOtherCameras) {
-    constexpr Resolution kSize{96, 64};
-    for (unsigned seed = 1; seed <= 3; ++seed) {
+// Points that a picture did not show may be shown by the next, and walk the octree; triangles of
+// which something is seen from the back, or that have interpolated normals, are shaded anew.
+TEST(KeptTables, ServePicturesOfOtherCameras) {
+    constexpr Resolution kSizes[] = {{96, 64}, {96, 64}, {60, 40}, {96, 64}};
+    enum Kind : unsigned { kSolid, kTwoSided, kSmooth, kKinds };
+    for (unsigned seed = 0; seed < kKinds; ++seed) {
         std::mt19937_64 random(seed);
         Scene scene = testing::random_scene(seed, 300);
         scene.lights = some_lights(random);
+        for (Object& object : scene.objects) {
+            object.solid = seed != kTwoSided;
+            auto* const mesh = std::get_if<TriangleMesh>(&object.shape);
+            if (mesh == nullptr || seed != kSmooth) continue;
+            while (mesh->normals.size() < mesh->positions.size())
+                mesh->normals.push_back(normalized(uniform_point(random, 1)));
+        }
         const Primitives primitives = flatten(scene, LeafContent::kPrimitives);
         const FastScene fast(scene, primitives, OctreeType::kUniform, 1);
         SerialTree serial(fast);
-        for (const InstructionSet isa : supported_instruction_sets()) {
-            const FastOptions options{OctreeType::kUniform, 2, isa};
-            KeptShadows kept;
-            for (int picture = 0; picture < 4; ++picture) {
-                const Point3 eye = uniform_point(random, 1) + Vector3{0, 0, 2};
-                scene.camera = testing::camera_along(eye, Point3{} - eye);
-                const Image expected = testing::exact_picture(scene, primitives, kSize);
-                Frame frame(serial, options, kSize, nullptr, kept, ShadowListing::kKept);
-                EXPECT_EQ(testing::difference(expected, frame.render()), "") << "seed " << seed;
-                ASSERT_NE(kept.tables(), nullptr);
-                EXPECT_FALSE(kept.tables()->complete());
+        for (const InstructionSet isa : supported_instruction_sets())
+            for (const ShadowListing listing : {ShadowListing::kAll, ShadowListing::kKept}) {
+                const FastOptions options{OctreeType::kUniform, 2, isa};
+                KeptTables kept;
+                const std::vector<Light> lights = scene.lights;
+                for (int picture = 0; picture < 6; ++picture) {
+                    const Resolution size = kSizes[picture % 4];
+                    const Point3 eye = uniform_point(random, 1) + Vector3{0, 0, 2};
+                    // Once only the picture's size is another.
+                    if (picture != 2) scene.camera = testing::camera_along(eye, Point3{} - eye);
+                    if (picture == 4) scene.lights.pop_back();
+                    const Image expected = testing::exact_picture(scene, primitives, size);
+                    Frame frame(serial, options, size, nullptr, kept, listing);
+                    EXPECT_EQ(testing::difference(expected, frame.render()), "")
+                        << "kind " << seed << ", picture " << picture;
+                    ASSERT_NE(kept.shadows(), nullptr);
+                    EXPECT_EQ(kept.shadows()->complete(), listing == ShadowListing::kAll);
+                }
+                scene.lights = lights;
+                kept.begin(fast, 1);
+                EXPECT_EQ(kept.shadows(), nullptr);
             }
-            scene.lights.pop_back();
-            kept.begin(fast, 1);
-            EXPECT_EQ(kept.tables(), nullptr);
-        }
     }
 }
 

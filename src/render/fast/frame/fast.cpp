@@ -28,7 +28,7 @@ struct FastTracer::State {
     FastOptions options;
     FastScene fast;
     SerialTree serial{fast};
-    KeptShadows kept;
+    KeptTables kept;
     std::size_t table_bytes = 0;
     std::size_t kept_bytes = 0;
     std::unique_ptr<SingleRays> single;  // made when rays are first asked for

@@ -1,18 +1,20 @@
 #include "fast/frame/frame.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <bit>
 #include <chrono>
 #include <optional>
+#include <utility>
 
 #include "fast/camera/camera_tables.h"
-#include "fast/frame/kept_shadows.h"
+#include "fast/frame/kept_tables.h"
 #include "fast/frame/serial_pixels.h"
 #include "fast/light/wanted_depths.h"
 #include "fast/primary/primary.h"
-#include "fast/scene/seen_triangles.h"
 #include "fast/scene/triangle_chunk.h"
+#include "fast/scene/triangle_set.h"
 #include "fast/shading/shading.h"
 #include "fast/shadow/shadow.h"
 #include "fast/tile/tile_order.h"
@@ -69,7 +71,7 @@ std::uint64_t pixels_of(TilePlace place, Resolution size) {
 struct Frame::Hits {
     BigVector<MacroTile> tiles;         // in the order of Tables::tiles
     BigVector<MacroQuadrics> quadrics;  // the same; empty: the scene has none
-    std::optional<SeenTriangles> seen;
+    std::optional<TriangleSet> seen;
 
     MacroQuadrics* quadrics_of(std::size_t i) { return quadrics.empty() ? nullptr : &quadrics[i]; }
     const MacroQuadrics* quadrics_of(std::size_t i) const {
@@ -82,22 +84,27 @@ struct Frame::Hits {
 
 struct Frame::Tables {
     Tables(const FastScene& scene, const FastOptions& options, Resolution resolution,
-           KeptShadows& kept, ShadowListing listing)
+           KeptTables& kept, ShadowListing listing)
         : rays(scene.scene().camera, resolution, scene.frame()),
           tiles(tiles_in_order(resolution, kMacroSide)),
           two_passes(listing == ShadowListing::kMeasured ? shadows_pay(scene, resolution)
                                                          : listing != ShadowListing::kAll) {
         camera.emplace(scene, rays, options.isa, options.threads);
-        surfaces.emplace(scene, rays, *camera, options.isa);
+        surfaces.emplace(scene, rays, *camera, options.isa,
+                         std::exchange(kept.shading, std::nullopt));
+        shadow = two_passes ? nullptr : kept.shadows();
         if (two_passes) {
-            for_each_quadric_part(scene, options.threads,
-                                  [&](QuadricSpan some) { camera->take_quadrics(some); });
-            camera->finish();
+            take_quadrics(scene, options.threads);
             hits.seen.emplace(scene);
-        } else if ((shadow = kept.tables()) != nullptr && shadow->complete()) {
-            fill_tables(scene, options.threads, *camera, *surfaces);
+            // Kernels read slot 0 in lanes that show no triangle.
+            hits.seen->add(std::array<Slot, 1>{0});
+        } else if (shadow != nullptr && shadow->complete()) {
+            take_quadrics(scene, options.threads);
+            TriangleSet all(scene);
+            all.add_all();
+            surfaces->fill(all, options.threads);
         } else {
-            shadow = &kept.keep([&] {
+            shadow = &kept.keep_shadows([&] {
                 ShadowTables all(scene, options.isa, options.threads);
                 fill_tables(scene, options.threads, all, *camera, *surfaces);
                 return all;
@@ -118,6 +125,11 @@ struct Frame::Tables {
     Hits hits;
 
   private:
+    void take_quadrics(const FastScene& scene, int threads) {
+        for_each_quadric_part(scene, threads,
+                              [&](QuadricSpan some) { camera->take_quadrics(some); });
+        camera->finish();
+    }
     // Whether it takes less time to ask each pixel twice than to make all tables of shadows.
     static bool shadows_pay(const FastScene& scene, Resolution resolution) {
         constexpr std::size_t kPixels = 16;     // that cost as much as the tables of an item
@@ -262,7 +274,7 @@ class Frame::Worker {
 };
 
 Frame::Frame(SerialTree& serial, const FastOptions& options, Resolution resolution,
-             FastTimes* times, KeptShadows& kept, ShadowListing listing)
+             FastTimes* times, KeptTables& kept, ShadowListing listing)
     : serial_(serial),
       scene_(serial.scene()),
       options_(options),
@@ -276,7 +288,7 @@ Frame::Frame(SerialTree& serial, const FastOptions& options, Resolution resoluti
     if (times != nullptr) clock.add_to(times->tables);
 }
 
-Frame::~Frame() = default;
+Frame::~Frame() { kept_.shading.emplace(std::move(tables_->surfaces->triangles)); }
 
 // Tables are for rays from one point.
 bool Frame::can_show(const FastScene& scene) {
@@ -314,10 +326,9 @@ void Frame::find_hits() {
 }
 
 void Frame::make_tables_of_hits() {
-    const BigVector<Slot> seen = tables_->hits.seen->slots();
-    for_each_chunk(scene_, seen, static_cast<Slot>(seen.size()), options_.threads,
-                   [&](const TriangleChunk& chunk) { tables_->surfaces->take(chunk); });
-    tables_->shadow = kept_.tables();
+    const TriangleSet& seen = *tables_->hits.seen;
+    tables_->surfaces->fill(seen, options_.threads);
+    tables_->shadow = kept_.shadows();
     if (tables_->shadow != nullptr && serves(*tables_->shadow)) {
         tables_->new_points = true;
         return;
@@ -327,7 +338,7 @@ void Frame::make_tables_of_hits() {
     constexpr std::size_t kMostSeen = 4;
     const bool few =
         listing_ != ShadowListing::kMeasured || seen.size() * kMostSeen <= scene_.slot_end();
-    tables_->shadow = &kept_.keep([&] {
+    tables_->shadow = &kept_.keep_shadows([&] {
         if (few)
             return ShadowTables(scene_, options_.isa, options_.threads, find_wanted(has_moved));
         ShadowTables all(scene_, options_.isa, options_.threads);

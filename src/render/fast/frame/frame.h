@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "fast/frame/kept_shadows.h"
+#include "fast/frame/kept_tables.h"
 #include "fast/tile/serial_tree.h"
 #include "nuvo/image/image.h"
 #include "nuvo/render/fast.h"
@@ -25,7 +25,7 @@ class Frame {
 
     /// Adds to `times` if it is given. Keeps references.
     Frame(SerialTree& serial, const FastOptions& options, Resolution resolution, FastTimes* times,
-          KeptShadows& kept, ShadowListing listing = ShadowListing::kMeasured);
+          KeptTables& kept, ShadowListing listing = ShadowListing::kMeasured);
     ~Frame();
 
     /// `options.threads` threads take tiles from one counter. Once.
@@ -49,7 +49,7 @@ class Frame {
     const FastScene& scene_;
     FastOptions options_;
     FastTimes* times_;
-    KeptShadows& kept_;
+    KeptTables& kept_;
     ShadowListing listing_;
     std::unique_ptr<Tables> tables_;
     std::vector<std::unique_ptr<Worker>> workers_;  // made by their threads

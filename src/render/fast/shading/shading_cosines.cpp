@@ -64,11 +64,11 @@ class TriangleFiller {
         mesh_ = &std::get<TriangleMesh>(shown.shape);
         word_ = surface_word(tables_, shown);
         two_sided_ = !shown.solid;
-        offset_ = mesh_->normals.empty() ? 0 : tables_.smooth_offsets[object];
+        offset_ = mesh_->normals.empty() ? 0 : tables_.triangles.smooth_offsets[object];
     }
 
     HWY_INLINE void put(Slot slot, std::uint32_t index, std::size_t lane) {
-        if (!tables_.triangle_words.empty()) tables_.triangle_words[slot] = word_;
+        if (!tables_.triangles.words.empty()) tables_.triangles.words[slot] = word_;
         surfaces_.two_sided[lane] = two_sided_ ? 1 : 0;
         surfaces_.smooth[lane] = nullptr;
         if (mesh_->normals.empty()) return;
@@ -78,7 +78,7 @@ class TriangleFiller {
             for (int axis = 0; axis < 3; ++axis)
                 surfaces_.normal[i * 3 + static_cast<std::size_t>(axis)][lane] =
                     mesh_->normals[corners[index][i]][axis];
-        surfaces_.smooth[lane] = &tables_.smooth[slot - offset_];
+        surfaces_.smooth[lane] = &tables_.triangles.smooth[slot - offset_];
         surfaces_.any_smooth = true;
     }
 
@@ -114,17 +114,18 @@ class TriangleFiller {
 
     HWY_INLINE void store(const Wide3& n, const Wide3& a, Slot first, std::size_t count) {
         for (std::size_t i = 0; i < tables_.lights.size(); ++i) {
-            ShadingLight& light = tables_.lights[i];
-            if (light.cosines.empty()) continue;
+            const ShadingLight& light = tables_.lights[i];
+            BigVector<float>& cosines = tables_.triangles.cosines[i];
+            if (cosines.empty()) continue;
             const Light& exact = tables_.scene.scene().lights[i];
             const Wide gain(light.exact_gain);
             const Wide value = light.directional
                                    ? dot(n, wide(-exact.direction)) * gain
                                    : dot(n, (wide(exact.location) - a) * Wide(scale_)) * gain;
-            spread(value, light.cosines.data() + first, 1, count);
+            spread(value, cosines.data() + first, 1, count);
         }
-        if (tables_.normals.empty()) return;
-        float* normals = tables_.normals.data() + 4 * static_cast<std::size_t>(first);
+        if (tables_.triangles.normals.empty()) return;
+        float* normals = tables_.triangles.normals.data() + 4 * static_cast<std::size_t>(first);
         spread(n.x, normals, 4, count);
         spread(n.y, normals + 1, 4, count);
         spread(n.z, normals + 2, 4, count);

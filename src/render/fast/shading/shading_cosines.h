@@ -4,8 +4,7 @@
 
 namespace nuvo {
 
-/// Fills the numbers of a chunk's triangles: `cosines` of each light that has room for them,
-/// `normals`, `triangle_words` and `smooth` if they have room.
+/// Fills in what of ShadingTables::triangles has room for a chunk's.
 void fill_triangles(ShadingTables& tables, const TriangleChunk& chunk, InstructionSet isa);
 
 /// The word of a primitive of that object.

@@ -26,6 +26,7 @@ class LightSampler {
                  ShadingScratch& scratch)
         : tables_(tables),
           light_(tables.lights[light]),
+          cosines_(tables.triangles.cosines[light]),
           exact_(tables.scene.scene().lights[light]),
           tile_(tile),
           scratch_(scratch),
@@ -54,7 +55,7 @@ class LightSampler {
     HWY_INLINE std::uint32_t sample(int b, std::uint32_t lanes) {
         const int first = b * kBlockLanes;
         const Toward toward(light_, tile_, first);
-        const std::uint32_t smooth = light_.cosines.empty() ? 0xffff : scratch_.smooth[b];
+        const std::uint32_t smooth = cosines_.empty() ? 0xffff : scratch_.smooth[b];
         Lit lit{Floats(0.0F), Floats(0.0F)};
         if ((lanes & ~smooth) != 0) lit = flat(first, toward);
         if ((lanes & smooth) != 0) {
@@ -95,7 +96,7 @@ class LightSampler {
         const Ints slot = Ints::load(reinterpret_cast<const std::int32_t*>(tile_.slot) + first);
         const auto known = (slot > Ints(-1)) &
                            (slot < Ints(static_cast<std::int32_t>(tables_.scene.triangle_end())));
-        const Floats cosine = Floats::gather(light_.cosines.data(), select(known, slot, Ints(0)));
+        const Floats cosine = Floats::gather(cosines_.data(), select(known, slot, Ints(0)));
         if constexpr (kDirectional) {
             return {cosine, mul_add(abs(cosine), Floats(roundings(1) + tint_rounding_),
                                     Floats(light_.cosine_error))};
@@ -193,6 +194,7 @@ class LightSampler {
 
     const ShadingTables& tables_;
     const ShadingLight& light_;
+    const BigVector<float>& cosines_;
     const Light& exact_;
     const Tile& tile_;
     ShadingScratch& scratch_;

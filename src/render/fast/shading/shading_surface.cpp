@@ -52,13 +52,13 @@ class SurfaceFiller {
             Ints word(0);
             if (triangles != 0)
                 word = Ints::gather(
-                    reinterpret_cast<const std::int32_t*>(tables_.triangle_words.data()),
+                    reinterpret_cast<const std::int32_t*>(tables_.triangles.words.data()),
                     select(triangle, slot, Ints(0)));
             word.store(reinterpret_cast<std::int32_t*>(scratch_.word) + first);
             special |= flagged(word, kSmoothFlag | kColoredFlag) & triangles;
             unlit = flagged(word, kUnlitFlag) & triangles;
         }
-        if (!tables_.normals.empty() && triangles != 0)
+        if (!tables_.triangles.normals.empty() && triangles != 0)
             gather_normals(first, select(triangle, slot, Ints(0)));
         if (special != 0) {
             SmoothNormalLanes(tables_, tile_, scratch_, directions, b).fill(special);
@@ -109,7 +109,8 @@ class SurfaceFiller {
     HWY_INLINE void gather_normals(int first, const Ints& slot) {
         const Ints at = shift_left<2>(slot);
         for (int axis = 0; axis < 3; ++axis)
-            Floats::gather(tables_.normals.data() + axis, at).store(tile_.normal[axis] + first);
+            Floats::gather(tables_.triangles.normals.data() + axis, at)
+                .store(tile_.normal[axis] + first);
     }
 
     HWY_INLINE void fill_view(int first, const BlockDirections& directions) {

@@ -103,9 +103,8 @@ void add_materials(ShadingTables& tables) {
         tables.common_word = tables.material_words[0];
 }
 
-void place_smooth_triangles(ShadingTables& tables) {
-    const FastScene& scene = tables.scene;
-    tables.smooth_offsets.resize(scene.scene().objects.size());
+void place_smooth_triangles(const FastScene& scene, ShadingTriangles& triangles) {
+    triangles.smooth_offsets.resize(scene.scene().objects.size());
     std::uint32_t object = ~0U;
     bool smooth = false;
     std::uint32_t count = 0;
@@ -113,11 +112,11 @@ void place_smooth_triangles(ShadingTables& tables) {
         if (scene.source(slot).object != object) {
             object = scene.source(slot).object;
             smooth = !std::get<TriangleMesh>(scene.scene().objects[object].shape).normals.empty();
-            tables.smooth_offsets[object] = slot - count;
+            triangles.smooth_offsets[object] = slot - count;
         }
         if (smooth) ++count;
     }
-    tables.smooth.resize(count);
+    triangles.smooth.resize(count);
 }
 
 // Flags that only meshes have.
@@ -136,7 +135,6 @@ void add_mesh_flags(ShadingTables& tables) {
         }
     }
     if ((tables.any_flags & (kSmoothFlag | kColoredFlag)) != 0) tables.uniform = false;
-    if ((tables.any_flags & kSmoothFlag) != 0) place_smooth_triangles(tables);
     // Weights in double, then one rounding of each sum.
     tables.bounds.color_error = rounded_up(roundings(2) * most * kFullByte);
 }
@@ -234,8 +232,6 @@ void add_lights(ShadingTables& tables) {
         tables.lights.push_back(shading_light(tables, exact));
         if (!is_gray(exact.color)) tables.channels = 3;
         ambient = ambient || exact.ambient_intensity != 0;
-        if (tables.lights.size() <= kLightsWithCosines && !tables.lights.back().dead)
-            tables.lights.back().cosines.resize(tables.scene.triangle_end());
     }
     for (const Material& m : scene.materials)
         tables.any_ambient = tables.any_ambient || (ambient && m.lit && m.ambient_intensity != 0);
@@ -254,6 +250,28 @@ void bound_points(ShadingTables& tables) {
                                  static_cast<double>(rays.longest) +
                              static_cast<double>(rays.error)));
     bounds.world_rounding = rounded_up(kSlack * world);
+}
+
+// Room for all triangles, of which nothing is known.
+ShadingTriangles unknown_triangles(const ShadingTables& tables) {
+    const FastScene& scene = tables.scene;
+    const std::size_t count = scene.triangle_end();
+    ShadingTriangles triangles(scene);
+    if (!tables.uniform) triangles.words.resize(count);
+    const bool few_lights = tables.lights.size() <= kLightsWithCosines;
+    triangles.cosines.resize(tables.lights.size());
+    for (std::size_t i = 0; i < tables.lights.size(); ++i)
+        if (few_lights && !tables.lights[i].dead) triangles.cosines[i].resize(count);
+    if ((tables.any_flags & kSpecularFlag) != 0 || !few_lights) triangles.normals.resize(4 * count);
+    const bool smooth = count > 0 && (tables.any_flags & kSmoothFlag) != 0;
+    if (smooth) place_smooth_triangles(scene, triangles);
+    const std::vector<Object>& objects = scene.scene().objects;
+    triangles.depend_on_camera =
+        smooth || std::any_of(objects.begin(), objects.end(),
+                              [](const Object& object) { return !object.solid; });
+    triangles.camera = scene.scene().camera;
+    triangles.resolution = tables.camera.resolution;
+    return triangles;
 }
 
 std::vector<BackgroundBand> bands(const std::vector<Color>& colors,
@@ -330,30 +348,46 @@ SurfaceWord surface_word(const ShadingTables& tables, const Object& object) {
 }
 
 ShadingTables::ShadingTables(const FastScene& scene_in, const CameraRays& camera_in,
-                             const CameraTables& quadrics_in, InstructionSet isa_in)
-    : scene(scene_in), camera(camera_in), isa(isa_in), quadrics(quadrics_in), rays(camera_in) {
+                             const CameraTables& quadrics_in, InstructionSet isa_in,
+                             std::optional<ShadingTriangles> kept)
+    : scene(scene_in),
+      camera(camera_in),
+      isa(isa_in),
+      quadrics(quadrics_in),
+      rays(camera_in),
+      triangles(scene) {
     bound_points(*this);
     add_materials(*this);
     add_mesh_flags(*this);
     add_lights(*this);
     add_background(*this);
-    const std::size_t triangles = scene.triangle_end();
-    if (!uniform) triangle_words.resize(triangles);
-    const bool few_lights = lights.size() <= kLightsWithCosines;
-    if ((any_flags & kSpecularFlag) != 0 || !few_lights) normals.resize(4 * triangles);
+    const bool serves =
+        kept && (!kept->depend_on_camera ||
+                 (kept->camera == scene.scene().camera && kept->resolution == camera.resolution));
+    triangles = serves ? std::move(*kept) : unknown_triangles(*this);
+}
+
+void ShadingTables::fill(const TriangleSet& some, int threads) {
+    const BigVector<Slot> slots = some.slots_beside(triangles.known);
+    for_each_chunk(scene, slots, static_cast<Slot>(slots.size()), threads,
+                   [&](const TriangleChunk& chunk) { take(chunk); });
+    triangles.known.add(slots);
 }
 
 void ShadingTables::take(const TriangleChunk& chunk) { fill_triangles(*this, chunk, isa); }
 
-std::size_t ShadingTables::memory_bytes() const {
-    std::size_t bytes = sizeof(*this) + rays.memory_bytes() +
-                        materials.size() * sizeof(ShadingMaterial) +
-                        (material_words.size() + triangle_words.size()) * sizeof(SurfaceWord) +
+std::size_t ShadingTriangles::memory_bytes() const {
+    std::size_t bytes = known.memory_bytes() + words.size() * sizeof(SurfaceWord) +
                         normals.size() * sizeof(float) + smooth.size() * sizeof(SmoothTriangle) +
                         smooth_offsets.size() * sizeof(std::uint32_t);
-    for (const ShadingLight& light : lights)
-        bytes += sizeof(light) + light.cosines.size() * sizeof(float);
+    for (const BigVector<float>& of_light : cosines) bytes += of_light.size() * sizeof(float);
     return bytes;
+}
+
+std::size_t ShadingTables::memory_bytes() const {
+    return sizeof(*this) + rays.memory_bytes() + materials.size() * sizeof(ShadingMaterial) +
+           material_words.size() * sizeof(SurfaceWord) + lights.size() * sizeof(ShadingLight) +
+           triangles.memory_bytes();
 }
 
 }  // namespace nuvo

@@ -2,12 +2,13 @@
 
 #include <array>
 #include <cstdint>
-#include <memory>
+#include <optional>
 #include <vector>
 
 #include "fast/camera/camera_tables.h"
 #include "fast/scene/fast_scene.h"
 #include "fast/scene/triangle_chunk.h"
+#include "fast/scene/triangle_set.h"
 #include "fast/shading/shading_rays.h"
 #include "fast/tile/tile.h"
 #include "nuvo/math/big_vector.h"
@@ -73,10 +74,7 @@ struct ShadingLight {
     float beam_width = 0;
     float cut_off = 0;
     float inverse_width = 0;  ///< 1 / (cut_off - beam_width); infinite: a sharp edge
-    /// By slot of a flat triangle: gain times n.l (directional) or n.(L - a), n turned as
-    /// shading_normal() turns it; NaN where double is not enough to know. Empty: use normals.
-    BigVector<float> cosines;
-    float cosine_error = 0;  ///< absolute, beside one rounding
+    float cosine_error = 0;   ///< of ShadingTriangles::cosines: absolute, beside one rounding
 };
 
 /// The interpolated normal of a triangle as a function of the pixel, but for its length: in the
@@ -95,6 +93,26 @@ struct alignas(64) SmoothTriangle {
     float padding[2];
 };
 static_assert(sizeof(SmoothTriangle) == 64);
+
+/// What shading knows of each triangle. Of flat ones that are solid it does not depend on the
+/// camera, so it is good for the next picture, too.
+struct ShadingTriangles {
+    explicit ShadingTriangles(const FastScene& scene) : known(scene) {}
+
+    TriangleSet known;             ///< filled in
+    BigVector<SurfaceWord> words;  ///< by slot; empty: all are the same
+    /// By light and slot of a flat triangle: gain times n.l (directional) or n.(L - a), n turned as
+    /// shading_normal() turns it; NaN where double is not enough to know. Empty: use normals.
+    std::vector<BigVector<float>> cosines;
+    BigVector<float> normals;                   ///< x, y, z, 0 by slot; empty: never asked for
+    BigVector<SmoothTriangle> smooth;           ///< of the meshes with interpolated normals
+    std::vector<std::uint32_t> smooth_offsets;  ///< by object: place of a slot is slot - offset
+    bool depend_on_camera = false;
+    Camera camera;  ///< for which they were made
+    Resolution resolution;
+
+    std::size_t memory_bytes() const;
+};
 
 /// A gradient between two angles from the pole, times 255: color + step * (angle - lower).
 struct BackgroundBand {
@@ -129,15 +147,18 @@ struct ShadingBounds {
 };
 
 struct ShadingTables {
-    /// Keeps references. What it holds for each triangle
-    /// fill_tables() fills in.
+    /// Keeps references. What it holds for each triangle fill() or fill_tables() fills in, as far
+    /// as `kept`, made for the same scene and lights, does not serve.
     ShadingTables(const FastScene& scene, const CameraRays& camera, const CameraTables& quadrics,
-                  InstructionSet isa);
+                  InstructionSet isa, std::optional<ShadingTriangles> kept = std::nullopt);
+
+    /// What is not known yet of some triangles.
+    void fill(const TriangleSet& some, int threads);
 
     /// For fill_tables(); by several threads at a time.
     void take(const TriangleChunk& chunk);
     void take_quadrics(QuadricSpan) {}
-    void finish() {}
+    void finish() { triangles.known.add_all(); }
 
     std::size_t memory_bytes() const;
 
@@ -148,7 +169,6 @@ struct ShadingTables {
     ShadingRays rays;
     std::vector<ShadingMaterial> materials;   ///< without repetition
     std::vector<SurfaceWord> material_words;  ///< by index into Scene::materials
-    BigVector<SurfaceWord> triangle_words;    ///< by slot; empty: all are the same
     SurfaceWord common_word = 0;              ///< of all primitives, if they are the same
     bool uniform = true;                      ///< all primitives have common_word
     SurfaceWord any_flags = 0;                ///< of any primitive
@@ -156,11 +176,9 @@ struct ShadingTables {
     bool any_ambient = false;                 ///< of a light and a material
     bool sound = true;  ///< false: a number is out of range, every pixel is for the fallback
     std::vector<ShadingLight> lights;
-    BigVector<float> normals;                   ///< x, y, z, 0 by slot; empty: never asked for
-    BigVector<SmoothTriangle> smooth;           ///< of the meshes with interpolated normals
-    std::vector<std::uint32_t> smooth_offsets;  ///< by object: place of a slot is slot - offset
     ShadingBackground background;
     ShadingBounds bounds;
+    ShadingTriangles triangles;
 };
 
 }  // namespace nuvo

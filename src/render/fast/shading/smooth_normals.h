@@ -305,13 +305,14 @@ class SmoothNormalLanes {
     }
 
     HWY_INLINE void fill_triangle(Slot slot) {
-        const SurfaceWord word = tables_.triangle_words[slot];
+        const SurfaceWord word = tables_.triangles.words[slot];
         const PrimitiveSource& source = scene_.source(slot);
         if ((word & kColoredFlag) != 0)
             fill_color(std::get<TriangleMesh>(scene_.scene().objects[source.object].shape),
                        source.triangle);
         if ((word & kSmoothFlag) != 0)
-            add_smooth(tables_.smooth[slot - tables_.smooth_offsets[source.object]]);
+            add_smooth(
+                tables_.triangles.smooth[slot - tables_.triangles.smooth_offsets[source.object]]);
     }
 
     HWY_INLINE void fill_round(Slot slot, const SeenQuadric& seen) {

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "fast/shading/shading_tables.h"
 #include "fast/shadow/pair_shadows.h"
 #include "fast/shadow/shadow_tables.h"
 
@@ -10,32 +11,36 @@ namespace nuvo {
 
 /// What one picture leaves to the next ones of its scene while the lights stay where they are: the
 /// shadow tables, which do not depend on the camera if they are of all items and else serve points
-/// for which they are known to list enough; and what each thread knows of pairs of triangles.
-class KeptShadows {
+/// for which they are known to list enough; what each thread knows of pairs of triangles; and what
+/// shading knows of triangles.
+class KeptTables {
   public:
     /// Before a picture. Forgets what was kept for other lights.
     void begin(const FastScene& scene, int threads) {
         if (lights_ != scene.scene().lights) {
-            tables_.reset();
+            shadows_.reset();
             pairs_.clear();
+            shading.reset();
             lights_ = scene.scene().lights;
         }
         while (pairs_.size() < static_cast<std::size_t>(threads)) pairs_.emplace_back(scene);
     }
     /// Null: there are none for these lights.
-    const ShadowTables* tables() const { return tables_ ? &*tables_ : nullptr; }
-    /// Frees the tables that are kept, and keeps what `make` returns instead.
+    const ShadowTables* shadows() const { return shadows_ ? &*shadows_ : nullptr; }
+    /// Frees the shadow tables that are kept, and keeps what `make` returns instead.
     template <typename Make>
-    const ShadowTables& keep(Make&& make) {
-        tables_.reset();
-        return tables_.emplace(make());
+    const ShadowTables& keep_shadows(Make&& make) {
+        shadows_.reset();
+        return shadows_.emplace(make());
     }
     /// For one thread at a time.
     PairShadows& pairs(int thread) { return pairs_[static_cast<std::size_t>(thread)]; }
 
+    std::optional<ShadingTriangles> shading;  ///< taken by a picture, and given back
+
   private:
     std::vector<Light> lights_;
-    std::optional<ShadowTables> tables_;
+    std::optional<ShadowTables> shadows_;
     std::vector<PairShadows> pairs_;  // by thread
 };
 
