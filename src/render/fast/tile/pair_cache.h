@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "fast/scene/fast_scene.h"
@@ -15,41 +17,54 @@ struct SlotPair {
     bool operator==(const SlotPair&) const = default;
 };
 
-/// Answers that were found for pairs, direct mapped: a pair takes the place of an older one. Holds
-/// no memory before it is first asked, and more as more is found. For one thread.
+/// Answers that were found for pairs: a hash table with linear probing, at most half full. Holds no
+/// memory before it is first asked, and starts anew when it would outgrow a cache. For one thread.
 template <typename Answer>
 class PairCache {
   public:
     /// The answer for `pair`: as kept, or as `find()` gives it.
     template <typename Find>
     Answer of(const SlotPair& pair, Find&& find) {
-        if (entries_.empty()) entries_.resize(std::size_t{1} << log2_entries_);
-        const std::uint32_t hash =
-            pair.first * 0x9e3779b1U + pair.second * 0x85ebca6bU + pair.light * 0xc2b2ae35U;
-        Entry& entry = entries_[hash >> (32 - log2_entries_)];
-        if (entry.pair == pair) return entry.answer;
-        const Answer answer = find();
-        entry = {pair, answer};
-        if (++found_ > entries_.size() && log2_entries_ < kLog2Most) grow();
-        return answer;
+        if (2 * count_ >= entries_.size()) make_room();
+        Entry& entry = place_of(pair);
+        if (entry.pair.first == kNoSlot) {
+            entry = {pair, find()};
+            ++count_;
+        }
+        return entry.answer;
     }
 
   private:
-    static constexpr unsigned kLog2Least = 12;
-    static constexpr unsigned kLog2Most = 18;  // 4 MB
+    static constexpr std::size_t kLeast = std::size_t{1} << 10;
+    static constexpr std::size_t kMost = std::size_t{1} << 18;  // 4 MB
     struct Entry {
-        SlotPair pair;
+        SlotPair pair;  // first is kNoSlot: free
         Answer answer{};
     };
-    // What was found so far is found again, which takes no longer than it did.
-    void grow() {
-        entries_.assign(std::size_t{1} << ++log2_entries_, Entry{});
-        found_ = 0;
+
+    /// Where the pair stands, or the free place for it.
+    Entry& place_of(const SlotPair& pair) {
+        std::uint32_t hash =
+            pair.first * 0x9e3779b1U + pair.second * 0x85ebca6bU + pair.light * 0xc2b2ae35U;
+        hash ^= hash >> 15;
+        const std::size_t mask = entries_.size() - 1;
+        std::size_t at = hash & mask;
+        while (entries_[at].pair.first != kNoSlot && entries_[at].pair != pair)
+            at = (at + 1) & mask;
+        return entries_[at];
+    }
+    void make_room() {
+        const bool full = entries_.size() == kMost;
+        const std::vector<Entry> old = std::exchange(
+            entries_, std::vector<Entry>(full ? kMost : std::max(kLeast, 2 * entries_.size())));
+        if (full) count_ = 0;
+        if (full) return;
+        for (const Entry& entry : old)
+            if (entry.pair.first != kNoSlot) place_of(entry.pair) = entry;
     }
 
-    std::vector<Entry> entries_;
-    unsigned log2_entries_ = kLog2Least;
-    std::size_t found_ = 0;  // since it grew
+    std::vector<Entry> entries_;  // a power of two
+    std::size_t count_ = 0;
 };
 
 }  // namespace nuvo
