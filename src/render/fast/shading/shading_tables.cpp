@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
+#include <string_view>
+#include <unordered_map>
 
 #include "fast/shading/shading_cosines.h"
 #include "fast/simd/estimate_error.h"
@@ -66,9 +67,16 @@ ShadingMaterial shading_material(const Material& m) {
     return out;
 }
 
+using MaterialKey = std::array<double, 12>;
+struct MaterialHash {
+    std::size_t operator()(const MaterialKey& key) const {
+        return std::hash<std::string_view>()(
+            {reinterpret_cast<const char*>(key.data()), sizeof(key)});
+    }
+};
+
 void add_materials(ShadingTables& tables) {
-    using Key = std::array<double, 12>;
-    std::map<Key, SurfaceWord> known;
+    std::unordered_map<MaterialKey, SurfaceWord, MaterialHash> known;
     for (const Material& m : tables.scene.scene().materials) {
         const bool specular = m.lit && m.specular_color != Color{};
         tables.sound = tables.sound && is_sound(m.diffuse_color) && is_sound(m.emissive_color) &&
@@ -77,18 +85,18 @@ void add_materials(ShadingTables& tables) {
         const Color d = m.lit ? m.diffuse_color : Color{};
         const Color s = specular ? m.specular_color : Color{};
         const Color e = m.emissive_color;
-        const Key key{d.x,
-                      d.y,
-                      d.z,
-                      s.x,
-                      s.y,
-                      s.z,
-                      e.x,
-                      e.y,
-                      e.z,
-                      m.lit ? m.ambient_intensity : 0,
-                      specular ? m.shininess : 0,
-                      m.lit ? 1.0 : 0.0};
+        const MaterialKey key{d.x,
+                              d.y,
+                              d.z,
+                              s.x,
+                              s.y,
+                              s.z,
+                              e.x,
+                              e.y,
+                              e.z,
+                              m.lit ? m.ambient_intensity : 0,
+                              specular ? m.shininess : 0,
+                              m.lit ? 1.0 : 0.0};
         const auto next = static_cast<SurfaceWord>(tables.materials.size());
         const auto [place, is_new] = known.try_emplace(key, next);
         if (is_new) tables.materials.push_back(shading_material(m));
