@@ -59,8 +59,9 @@ struct Pixel {
 constexpr int kKinds = 6;
 constexpr int kTelescope = 5;
 Triangle triangle_before(std::mt19937_64& random, const Point3& eye, const View& view, int kind) {
-    const Vector3 way =
-        normalized(view.camera.direction(uniform(random, -900, 900), uniform(random, -500, 500)));
+    const double x = uniform(random, -900, 900);
+    const double y = uniform(random, -500, 500);
+    const Vector3 way = normalized(view.camera.direction(x, y));
     const Point3 middle = eye + way * std::exp2(uniform(random, -3, 6));
     const double size = std::exp2(uniform(random, -12, 2));
     Triangle t{middle + uniform_point(random, size), middle + uniform_point(random, size),

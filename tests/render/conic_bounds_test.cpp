@@ -159,9 +159,9 @@ TEST(ConicBounds, HoldForSpheres) {
             const int tile_y = static_cast<int>(random() % 67) * kTileSide;
             // Behind the tile, beside it, tangent to a ray of it, or around the eye.
             const int kind = round % 4;
-            const Vector3 way = normalized(
-                view.camera.direction(view.camera.center_x(tile_x) + uniform(random, 0, 4),
-                                      view.camera.center_y(tile_y) + uniform(random, 0, 4)));
+            const double x = view.camera.center_x(tile_x) + uniform(random, 0, 4);
+            const double y = view.camera.center_y(tile_y) + uniform(random, 0, 4);
+            const Vector3 way = normalized(view.camera.direction(x, y));
             const double far = std::exp2(uniform(random, -2, 6));
             double radius = std::exp2(uniform(random, -14, 1)) * far;
             Point3 center = eye + way * far;
@@ -217,9 +217,9 @@ TEST(ConicBounds, HoldForEllipsoids) {
             const int tile_y = static_cast<int>(random() % 67) * kTileSide;
             // Behind the tile, or around the eye.
             const bool around = round % 3 == 0;
-            const Vector3 way = normalized(
-                view.camera.direction(view.camera.center_x(tile_x) + uniform(random, 0, 4),
-                                      view.camera.center_y(tile_y) + uniform(random, 0, 4)));
+            const double x = view.camera.center_x(tile_x) + uniform(random, 0, 4);
+            const double y = view.camera.center_y(tile_y) + uniform(random, 0, 4);
+            const Vector3 way = normalized(view.camera.direction(x, y));
             const double far = std::exp2(uniform(random, -2, 6));
             const double size = std::exp2(uniform(random, around ? 0 : -10, 1)) * far;
             const Point3 center =

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <map>
 #include <random>
@@ -48,6 +49,29 @@ Place place_of(const LightBuffer& buffer, const LightPoint& light, const Point3&
     return place;
 }
 
+/// What a cell's list says of an item, read byte by byte.
+struct Entry {
+    Slot place;
+    float near;
+    std::uint32_t low[2];
+    std::uint32_t high[2];
+};
+template <typename Use>
+void for_each_entry(const LightBuffer& buffer, std::uint32_t cell, Use&& use) {
+    const std::uint32_t end = buffer.starts[cell + 1];
+    for (std::uint32_t i = buffer.starts[cell]; i < end; i += LightGroup::kMost) {
+        const LightGroup group = buffer.group(i, end);
+        ASSERT_EQ(group.count, std::min<std::uint32_t>(16, end - i));
+        for (std::uint32_t k = 0; k < group.count; ++k) {
+            const std::uint32_t box = group.boxes()[k];
+            use(Entry{group.places()[k],
+                      std::bit_cast<float>(group.nears()[k]),
+                      {box & 0xff, box >> 8 & 0xff},
+                      {127 - (box >> 16 & 0xff), 127 - (box >> 24)}});
+        }
+    }
+}
+
 /// The items that the buffer lists for the point.
 std::set<Slot> listed(const LightBuffer& buffer, const Place& place) {
     std::uint32_t step[2];
@@ -60,12 +84,16 @@ std::set<Slot> listed(const LightBuffer& buffer, const Place& place) {
         const auto row = step[1] * static_cast<std::uint32_t>(grid.rows) / kLightSteps +
                          static_cast<std::uint32_t>(place.face * grid.rows);
         const auto cell = grid.first_cell + row * static_cast<std::uint32_t>(grid.columns) + column;
-        for (std::uint32_t i = buffer.starts[cell]; i < buffer.starts[cell + 1]; ++i) {
-            const LightEntry& entry = buffer.entries[i];
-            if (entry.near <= place.depth && entry.low[0] <= step[0] && step[0] <= entry.high[0] &&
-                entry.low[1] <= step[1] && step[1] <= entry.high[1])
+        // The point's steps within its cell.
+        const std::uint32_t at[2] = {step[0] * static_cast<std::uint32_t>(grid.columns) %
+                                         kLightSteps * kCellSteps / kLightSteps,
+                                     step[1] * static_cast<std::uint32_t>(grid.rows) % kLightSteps *
+                                         kCellSteps / kLightSteps};
+        for_each_entry(buffer, cell, [&](const Entry& entry) {
+            if (entry.near <= place.depth && entry.low[0] <= at[0] && at[0] <= entry.high[0] &&
+                entry.low[1] <= at[1] && at[1] <= entry.high[1])
                 found.insert(entry.place);
-        }
+        });
     }
     return found;
 }
@@ -197,6 +225,51 @@ struct Stacks {
     }
 };
 
+TEST(CellBox, MeetsWhatItOverlaps) {
+    const auto meets = [](const CellBox& item, const CellBox& window) {
+        return ((window.window() - item.item()) & CellBox::kMeets) == CellBox::kMeets;
+    };
+    std::mt19937 random(20261129);
+    const auto number = [&]() -> std::uint32_t {
+        constexpr std::uint32_t kEdges[] = {0, 1, 63, 64, 126, 127};
+        if (random() % 2 != 0) return kEdges[random() % 6];
+        return static_cast<std::uint32_t>(random() % 128);
+    };
+    int met = 0;
+    constexpr int kPairs = 100'000;
+    for (int i = 0; i < kPairs; ++i) {
+        CellBox box[2];
+        bool overlap = true;
+        for (int k = 0; k < 2; ++k) {
+            for (CellBox& one : box) {
+                const std::uint32_t a = number();
+                const std::uint32_t b = number();
+                one.low[k] = std::min(a, b);
+                one.high[k] = std::max(a, b);
+            }
+            overlap = overlap && box[0].low[k] <= box[1].high[k] && box[1].low[k] <= box[0].high[k];
+        }
+        ASSERT_EQ(meets(box[0], box[1]), overlap);
+        met += overlap ? 1 : 0;
+    }
+    EXPECT_GT(met, kPairs / 4);
+    EXPECT_LT(met, kPairs * 3 / 4);
+}
+
+// Steps of cells are told apart as finely as the cells, and keep the order of steps.
+TEST(CellBox, StepsOfCellsKeepTheOrder) {
+    for (const int count : {1, 3, 100, 8191, 8192}) {
+        std::uint32_t last = 0;
+        for (std::uint32_t step = 0; step < kLightSteps; ++step) {
+            const std::uint32_t at = cell_step(step, count);
+            ASSERT_GE(at, last);
+            ASSERT_EQ(at / kCellSteps,
+                      std::uint64_t{step} * static_cast<std::uint64_t>(count) / kLightSteps);
+            last = at;
+        }
+    }
+}
+
 TEST(LightBuffer, LongListsBeginNearTheLight) {
     for (const int of : {5, 500}) {
         const Stacks stacks(of, 1.2);
@@ -205,13 +278,11 @@ TEST(LightBuffer, LongListsBeginNearTheLight) {
         EXPECT_EQ(buffer.near_first, of == 500);
         if (!buffer.near_first) continue;
         std::size_t longest = 0;
-        for (std::size_t cell = 0; cell + 2 < buffer.starts.size(); ++cell) {
-            const auto first = buffer.entries.begin() + buffer.starts[cell];
-            const auto last = buffer.entries.begin() + buffer.starts[cell + 1];
-            EXPECT_TRUE(std::is_sorted(first, last, [](const LightEntry& a, const LightEntry& b) {
-                return a.near < b.near;
-            }));
-            longest = std::max(longest, static_cast<std::size_t>(last - first));
+        for (std::uint32_t cell = 0; cell + 1 < buffer.starts.size(); ++cell) {
+            std::vector<float> nears;
+            for_each_entry(buffer, cell, [&](const Entry& entry) { nears.push_back(entry.near); });
+            EXPECT_TRUE(std::is_sorted(nears.begin(), nears.end()));
+            longest = std::max(longest, nears.size());
         }
         EXPECT_GE(longest, 500U);
     }

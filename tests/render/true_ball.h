@@ -34,7 +34,8 @@ class TrueBall {
 inline Ellipsoid random_ellipsoid(std::mt19937_64& random, const Point3& center, double size,
                                   double flattest) {
     Ellipsoid e{center, {}, size};
-    const Matrix3 turn = rotation(uniform_point(random, 1) - Point3{}, uniform(random, 0, 6));
+    const Vector3 axis = uniform_point(random, 1) - Point3{};
+    const Matrix3 turn = rotation(axis, uniform(random, 0, 6));
     Matrix3 stretch;
     for (int i = 0; i < 3; ++i)
         stretch.row[i] = stretch.row[i] * std::exp2(uniform(random, flattest, 0));

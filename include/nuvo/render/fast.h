@@ -69,7 +69,8 @@ class FastTracer {
     FastTracer(FastTracer&&) noexcept;
     FastTracer& operator=(FastTracer&&) noexcept;
 
-    /// Adds to `times` if it is given, at a small cost.
+    /// Adds to `times` if it is given, at a small cost. Between two pictures the scene's camera and
+    /// lights may change, nothing else.
     Image render(Resolution resolution, FastTimes* times = nullptr);
     /// The closest hit of each ray, as closest_hits() answers it.
     std::vector<RayAnswer> closest_hits(std::span<const Ray> rays) const;

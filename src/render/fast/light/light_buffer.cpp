@@ -1,6 +1,7 @@
 #include "fast/light/light_buffer.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #undef HWY_TARGET_INCLUDE
@@ -31,7 +32,7 @@ class LightBufferMaker {
     void run() {
         if (faces_ == 0) return;
         choose_grids();
-        out_.starts.resize(cells_ + 2);
+        out_.starts.resize(cells_ + 1);
         std::fill(out_.starts.begin(), out_.starts.end(), 0);
         records_.resize(end_ + end_ / 2 + 16);  // some are seen through several faces
         for (Slot first = 0; first < end_; first += count_from(first)) {
@@ -64,10 +65,18 @@ class LightBufferMaker {
     static constexpr double kLeastError = 0x1p-20;
     static constexpr double kMostError = kMostPointError;
 
-    // The cells that an item covers on its grid: at most kCoarser^2 but for the last grid, which
-    // has only one.
+    // What is known of an item on a face.
+    struct Item {
+        Slot place;
+        float near;
+        std::uint16_t low[2];  // steps between which it lies
+        std::uint16_t high[2];
+    };
+    static_assert(sizeof(Item) == 16);
+    // The cells that it covers on its grid: at most kCoarser^2 but for the last grid, which has
+    // only one.
     struct Record {
-        LightEntry entry;
+        Item item;
         std::uint32_t first;
         std::uint8_t columns;
         std::uint8_t rows;
@@ -193,7 +202,7 @@ class LightBufferMaker {
     HWY_INLINE void record(Slot first, int face, const LightRanges& ranges, std::uint32_t lanes) {
         Ints low[2];
         Ints high[2];
-        alignas(64) LightEntry entries[16];
+        alignas(64) Item items[16];
         for (int i = 0; i < 2; ++i) {
             low[i] = integers_from(step_of(out_.map, i, ranges.low[i]));
             high[i] = integers_from(step_of(out_.map, i, ranges.high[i]));
@@ -201,7 +210,7 @@ class LightBufferMaker {
         const auto pair = [](const Ints(&v)[2]) { return v[0] | shift_left<16>(v[1]); };
         const Ints slots = Ints(static_cast<std::int32_t>(first)) + Ints::load(kLaneNumbers);
         store_by_fours(slots, bits_of(ranges.near), pair(low), pair(high),
-                       reinterpret_cast<std::int32_t*>(entries));
+                       reinterpret_cast<std::int32_t*>(items));
         if (used_ + 16 > records_.size()) records_.resize(2 * records_.size() + 16);
         for (std::size_t g = 0; lanes != 0; ++g) {
             const Cells cells(out_.grids[g], face, low, high);
@@ -213,10 +222,12 @@ class LightBufferMaker {
                     continue;
                 }
                 Record& record = records_[used_++];
-                record = {entries[i], static_cast<std::uint32_t>(cells.first[i]),
+                record = {items[i], static_cast<std::uint32_t>(cells.first[i]),
                           static_cast<std::uint8_t>(cells.columns[i]),
                           static_cast<std::uint8_t>(cells.rows[i]), static_cast<std::uint8_t>(g)};
-                for_each_cell(record, [&](std::uint32_t cell) { ++out_.starts[cell + 2]; });
+                for_each_cell(record, [&](std::uint32_t cell, std::uint32_t, std::uint32_t) {
+                    ++out_.starts[cell + 1];
+                });
             }
             lanes = left;
         }
@@ -226,19 +237,19 @@ class LightBufferMaker {
         const auto columns = static_cast<std::uint32_t>(out_.grids[record.grid].columns);
         std::uint32_t first = record.first;
         for (std::uint32_t y = 0; y < record.rows; ++y, first += columns)
-            for (std::uint32_t x = 0; x < record.columns; ++x) use(first + x);
+            for (std::uint32_t x = 0; x < record.columns; ++x) use(first + x, x, y);
     }
 
-    // Makes starts[c + 1] the start of cell c; false: its lists are too long. Where they are long,
+    // Makes starts[c] the start of cell c; false: its lists are too long. Where they are long,
     // what is near the light comes first: it blocks most.
     bool add_up() {
         double squares = 0;
         for (std::size_t cell = 0; cell < cells_; ++cell) {
-            const double length = out_.starts[cell + 2];
+            const double length = out_.starts[cell + 1];
             squares += length * length;
-            out_.starts[cell + 2] += out_.starts[cell + 1];
+            out_.starts[cell + 1] += out_.starts[cell];
         }
-        const double entries = out_.starts[cells_ + 1];
+        const double entries = out_.starts[cells_];
         if (squares > kLongLists * entries) {
             out_.grids.clear();
             return false;
@@ -246,15 +257,11 @@ class LightBufferMaker {
         out_.near_first = squares > kListsToSort * entries;
         return true;
     }
-    // starts[c + 1] is where the next entry of cell c goes, until it is where c + 1 starts.
     void fill() {
-        constexpr std::size_t kReadAhead = 16;
-        out_.entries.resize(out_.starts[cells_ + 1] + kReadAhead);
-        const auto put = [&](const Record& record) {
-            for_each_cell(record, [&](std::uint32_t cell) {
-                out_.entries[out_.starts[cell + 1]++] = record.entry;
-            });
-        };
+        out_.entries.resize(LightGroup::kWords *
+                            (std::size_t{out_.starts[cells_]} + LightGroup::kMost));
+        next_.assign(out_.starts.begin(), out_.starts.end() - 1);
+        const auto put = [&](const Record& record) { list(record); };
         if (out_.near_first)
             for (const auto& [near, i] : by_nearness()) put(records_[i]);
         else
@@ -266,10 +273,37 @@ class LightBufferMaker {
         if (out_.grids.empty()) out_.grids.push_back(coarsest);  // nothing hides anything
         for (LightGrid& grid : out_.grids) find_empty_cells(grid);
     }
+    void list(const Record& record) {
+        const LightGrid& grid = out_.grids[record.grid];
+        const int counts[2] = {grid.columns, grid.rows};
+        CellBox box;
+        for (int i = 0; i < 2; ++i) {
+            box.low[i] = cell_step(record.item.low[i], counts[i]) % kCellSteps;
+            box.high[i] = cell_step(record.item.high[i], counts[i]) % kCellSteps;
+        }
+        const std::uint32_t last[2] = {record.columns - 1U, record.rows - 1U};
+        for_each_cell(record, [&](std::uint32_t cell, std::uint32_t x, std::uint32_t y) {
+            const std::uint32_t at[2] = {x, y};
+            CellBox part;
+            for (int i = 0; i < 2; ++i) {
+                part.low[i] = at[i] == 0 ? box.low[i] : 0;
+                part.high[i] = at[i] == last[i] ? box.high[i] : kCellSteps - 1;
+            }
+            const std::uint32_t number = next_[cell]++ - out_.starts[cell];
+            const std::uint32_t in_group = number % LightGroup::kMost;
+            const LightGroup group =
+                out_.group(out_.starts[cell] + number - in_group, out_.starts[cell + 1]);
+            std::uint32_t* const words =
+                out_.entries.data() + (group.words - out_.entries.data()) + in_group;
+            words[0] = part.item();
+            words[group.count] = std::bit_cast<std::uint32_t>(record.item.near);
+            words[2 * std::size_t{group.count}] = record.item.place;
+        });
+    }
     std::vector<std::pair<float, std::uint32_t>> by_nearness() const {
         std::vector<std::pair<float, std::uint32_t>> order(used_);
         for (std::size_t i = 0; i < used_; ++i)
-            order[i] = {records_[i].entry.near, static_cast<std::uint32_t>(i)};
+            order[i] = {records_[i].item.near, static_cast<std::uint32_t>(i)};
         std::sort(order.begin(), order.end());
         return order;
     }
@@ -299,6 +333,7 @@ class LightBufferMaker {
     int faces_ = 0;
     std::uint32_t cells_ = 0;  // of all grids
     BigVector<Record> records_;
+    BigVector<std::uint32_t> next_;  // of each cell: where its next entry goes
     std::size_t used_ = 0;
 };
 

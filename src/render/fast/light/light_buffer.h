@@ -16,14 +16,30 @@
 
 namespace nuvo {
 
-/// An item of a cell's list.
-struct LightEntry {
-    Slot place;            ///< among the LightItems
-    float near;            ///< no part of it lies less deep
-    std::uint16_t low[2];  ///< steps between which it lies
-    std::uint16_t high[2];
+/// Boxes are told apart by so many steps a cell, on both axes.
+inline constexpr std::uint32_t kCellSteps = 128;
+
+/// Steps of cells, from the first cell of `count` on, of one of kLightSteps: monotonic.
+inline std::uint32_t cell_step(std::uint32_t step, int count) {
+    return step * static_cast<std::uint32_t>(count) / (kLightSteps / kCellSteps);
+}
+
+/// A box of steps within a cell, one byte for each side.
+struct CellBox {
+    std::uint32_t low[2];
+    std::uint32_t high[2];
+
+    /// An item's box meets a window iff window() - item() keeps the highest bit of all four bytes:
+    /// none of the item's is greater then.
+    std::uint32_t item() const { return packed(low, high); }
+    std::uint32_t window() const { return packed(high, low) | kMeets; }
+    static constexpr std::uint32_t kMeets = 0x80808080;
+
+  private:
+    static std::uint32_t packed(const std::uint32_t (&a)[2], const std::uint32_t (&b)[2]) {
+        return a[0] | a[1] << 8 | (kCellSteps - 1 - b[0]) << 16 | (kCellSteps - 1 - b[1]) << 24;
+    }
 };
-static_assert(sizeof(LightEntry) == 16);
 
 /// Cells of one size: columns x rows of them on each face.
 struct LightGrid {
@@ -31,6 +47,22 @@ struct LightGrid {
     int rows = 1;
     std::uint32_t first_cell = 0;
     bool sparse = false;  ///< most of its cells are empty: LightBuffer::occupied is asked first
+};
+
+/// Some entries of a cell's list, each number of all of them side by side.
+struct LightGroup {
+    static constexpr std::uint32_t kMost = 16;
+    static constexpr std::size_t kWords = 3;  ///< of an entry
+
+    const std::uint32_t* words;
+    std::uint32_t count;
+
+    /// Each one's CellBox::item().
+    const std::uint32_t* boxes() const { return words; }
+    /// No part of it lies less deep: floats.
+    const std::uint32_t* nears() const { return words + count; }
+    /// Among the LightItems.
+    const Slot* places() const { return words + 2 * std::size_t{count}; }
 };
 
 /// The light buffer of one light. Items are listed on the finest grid on which they cover few
@@ -44,15 +76,20 @@ struct LightBuffer {
     /// False where nothing may be looked up: the light is too far, or lists would be too long.
     bool usable() const { return !grids.empty(); }
     std::size_t memory_bytes() const {
-        return (starts.size() + occupied.size()) * sizeof(std::uint32_t) +
-               entries.size() * sizeof(LightEntry);
+        return (starts.size() + occupied.size() + entries.size()) * sizeof(std::uint32_t);
+    }
+    /// Up to kGroup entries of a list that ends at `end`, from `begin` on, a whole number of groups
+    /// behind its start.
+    LightGroup group(std::uint32_t begin, std::uint32_t end) const {
+        return {entries.data() + LightGroup::kWords * std::size_t{begin},
+                std::min(LightGroup::kMost, end - begin)};
     }
 
     LightMap map;
-    bool near_first = false;           ///< lists are sorted by LightEntry::near
+    bool near_first = false;           ///< lists are sorted by nearness
     std::vector<LightGrid> grids;      ///< from fine to coarse
     BigVector<std::uint32_t> starts;   ///< of the cells' lists, and the end
-    BigVector<LightEntry> entries;     ///< and room for a few more to be read
+    BigVector<std::uint32_t> entries;  ///< in groups, and room for one more to be read
     BigVector<std::int32_t> occupied;  ///< a bit a cell, 32 in a word: whether it lists anything
 };
 

@@ -60,9 +60,9 @@ class ShadowLookup {
                 }
                 Visit& visit = add_visit(b, lanes, static_cast<std::uint32_t>(stored.cell[lane]));
                 if ((lanes & (lanes - 1)) == 0)
-                    put_window(visit, stored, lane);
+                    put_window(visit, grid, stored, lane);
                 else
-                    put_window(visit, places, lanes);
+                    put_window(visit, grid, places, lanes);
             }
         }
         const std::uint32_t rough = there & places.known & ~places.good;
@@ -74,7 +74,7 @@ class ShadowLookup {
     void run() {
         for (int i = 0; i < visit_count_; ++i) find_list(visits_[i]);
         const std::uint32_t round =
-            buffer_.near_first ? kStep : std::numeric_limits<std::uint32_t>::max();
+            buffer_.near_first ? LightGroup::kMost : std::numeric_limits<std::uint32_t>::max();
         while (visit_count_ > 0) {
             int left = 0;
             for (int i = 0; i < visit_count_; ++i)
@@ -90,8 +90,7 @@ class ShadowLookup {
         std::uint32_t cell;
         std::uint16_t block;
         std::uint16_t lanes;
-        std::int32_t low[2];  // steps
-        std::int32_t high[2];
+        std::uint32_t window;  // CellBox::window()
         float depth;
         std::uint32_t begin;  // its entries
         std::uint32_t end;
@@ -108,7 +107,6 @@ class ShadowLookup {
     };
     static constexpr int kMaxVisits = 512;
     static constexpr int kMaxCandidates = 256;
-    static constexpr std::uint32_t kStep = 16;
 
     HWY_INLINE std::uint32_t occupied(const Ints& cells) const {
         const Ints words = Ints::gather(buffer_.occupied.data(), cells >> Ints(5));
@@ -179,29 +177,45 @@ class ShadowLookup {
                 const int cell = (rough.face[lane] * grid.rows + row) * grid.columns + column;
                 Visit& visit =
                     add_visit(b, 1U << lane, grid.first_cell + static_cast<std::uint32_t>(cell));
+                const int at[2] = {column, row};
+                const int counts[2] = {grid.columns, grid.rows};
+                CellBox box;
                 for (int i = 0; i < 2; ++i) {
-                    visit.low[i] = rough.low[i][lane];
-                    visit.high[i] = rough.high[i][lane];
+                    box.low[i] = at[i] > cells.low[i] ? 0 : within(rough.low[i][lane], counts[i]);
+                    box.high[i] = at[i] < cells.high[i] ? kCellSteps - 1
+                                                        : within(rough.high[i][lane], counts[i]);
                 }
+                visit.window = box.window();
                 visit.depth = rough.depth[lane];
             }
     }
 
-    static HWY_INLINE void put_window(Visit& visit, const Stored& stored, int lane) {
-        for (int i = 0; i < 2; ++i)
-            visit.low[i] = visit.high[i] = static_cast<std::int32_t>(stored.step[i][lane]);
+    static std::uint32_t within(std::int32_t step, int count) {
+        return cell_step(static_cast<std::uint32_t>(step), count) % kCellSteps;
+    }
+    static HWY_INLINE void put_window(Visit& visit, const LightGrid& grid, const Stored& stored,
+                                      int lane) {
+        const std::uint32_t at[2] = {
+            within(static_cast<std::int32_t>(stored.step[0][lane]), grid.columns),
+            within(static_cast<std::int32_t>(stored.step[1][lane]), grid.rows)};
+        visit.window = CellBox{{at[0], at[1]}, {at[0], at[1]}}.window();
         visit.depth = stored.depth[lane];
     }
-    static HWY_INLINE void put_window(Visit& visit, const LightPlaces& places,
-                                      std::uint32_t lanes) {
+    static HWY_INLINE void put_window(Visit& visit, const LightGrid& grid,
+                                      const LightPlaces& places, std::uint32_t lanes) {
         const RayMask there = RayMask::from_bits(lanes);
+        const int counts[2] = {grid.columns, grid.rows};
+        CellBox box;
         for (int i = 0; i < 2; ++i) {
             const Floats& step = places.step[i];
-            visit.low[i] =
-                static_cast<std::int32_t>(lowest(select(there, step, Floats(kLightSteps))));
-            visit.high[i] = static_cast<std::int32_t>(highest(select(there, step, Floats(0.0F))));
+            const float low = lowest(select(there, step, Floats(kLightSteps)));
+            const float high = highest(select(there, step, Floats(0.0F)));
+            box.low[i] = within(static_cast<std::int32_t>(low), counts[i]);
+            box.high[i] = within(static_cast<std::int32_t>(high), counts[i]);
         }
-        visit.depth = highest(select(there, places.depth, Floats(-INFINITY)));
+        visit.window = box.window();
+        visit.depth =
+            highest(select(there, places.depth, Floats(-std::numeric_limits<float>::infinity())));
     }
 
     HWY_INLINE void find_list(Visit& visit) const {
@@ -210,10 +224,10 @@ class ShadowLookup {
         prefetch(visit);
     }
     HWY_INLINE void prefetch(const Visit& visit) const {
-        constexpr int kLines = static_cast<int>(kStep * sizeof(LightEntry) / 64);
-        const LightEntry* const entries = buffer_.entries.data() + visit.begin;
-        for (int line = 0; line < kLines; ++line)
-            hwy::Prefetch(entries + line * static_cast<int>(64 / sizeof(LightEntry)));
+        constexpr std::size_t kLine = 64 / sizeof(std::uint32_t);
+        const LightGroup group = buffer_.group(visit.begin, visit.end);
+        for (std::size_t at = 0; at < LightGroup::kWords * LightGroup::kMost; at += kLine)
+            hwy::Prefetch(group.words + at);
     }
     // Looks at the next entries, up to `most`; false: nothing is left to be looked at.
     HWY_INLINE bool scan(Visit& visit, std::uint32_t most) {
@@ -221,12 +235,11 @@ class ShadowLookup {
         const ShadowBlock& block = blocks_[visit.block];
         if ((block.waiting() & visit.lanes) == 0) return false;
         const std::uint32_t end = visit.begin + std::min(most, visit.end - visit.begin);
-        for (; visit.begin < end; visit.begin += kStep) {
-            const LightEntry* const entries = buffer_.entries.data() + visit.begin;
-            std::uint32_t found = meets(entries, visit);
-            if (end - visit.begin < kStep) found &= (1U << (end - visit.begin)) - 1;
-            for (; found != 0; found &= found - 1) {
-                const Slot place = entries[std::countr_zero(found)].place;
+        while (visit.begin < end) {
+            const LightGroup group = buffer_.group(visit.begin, visit.end);
+            visit.begin += group.count;
+            for (std::uint32_t found = meets(group, visit); found != 0; found &= found - 1) {
+                const Slot place = group.places()[std::countr_zero(found)];
                 if (place < table.triangles) {
                     if (block.only_own(table.slot(place), visit.lanes)) continue;
                     hwy::Prefetch(&table.planes[place]);
@@ -235,24 +248,24 @@ class ShadowLookup {
                 }
                 candidates_[candidate_count_++] = {place, visit.block, visit.lanes};
             }
-            if (candidate_count_ <= kMaxCandidates - static_cast<int>(kStep)) continue;
+            if (candidate_count_ <= kMaxCandidates - static_cast<int>(LightGroup::kMost)) continue;
             test_candidates();
             if ((block.waiting() & visit.lanes) == 0) return false;
         }
-        if (visit.begin >= visit.end || buffer_.entries[visit.begin].near > visit.depth)
+        if (visit.begin >= visit.end) return false;
+        if (std::bit_cast<float>(buffer_.group(visit.begin, visit.end).nears()[0]) > visit.depth)
             return false;
         prefetch(visit);
         return true;
     }
-    // Which of 16 entries may stand before the visiting points.
-    static HWY_INLINE std::uint32_t meets(const LightEntry* entries, const Visit& visit) {
-        Ints slot, near, low, high;
-        Ints::load_by_fours(reinterpret_cast<const std::int32_t*>(entries), slot, near, low, high);
-        const Ints first(0xffff);
-        const auto beside =
-            ((low & first) > Ints(visit.high[0])) | (logical_right<16>(low) > Ints(visit.high[1])) |
-            ((high & first) < Ints(visit.low[0])) | (logical_right<16>(high) < Ints(visit.low[1]));
-        return ~beside.bits() & (floats_of(near) <= Floats(visit.depth)).bits();
+    // Which of a group may stand before the visiting points.
+    static HWY_INLINE std::uint32_t meets(const LightGroup& group, const Visit& visit) {
+        constexpr auto kAll = static_cast<std::int32_t>(CellBox::kMeets);
+        const Ints boxes = Ints::load(reinterpret_cast<const std::int32_t*>(group.boxes()));
+        const Ints left = Ints(static_cast<std::int32_t>(visit.window)) - boxes;
+        const Floats nears = Floats::load(reinterpret_cast<const float*>(group.nears()));
+        return ((left & Ints(kAll)) == Ints(kAll)).bits() & (nears <= Floats(visit.depth)).bits() &
+               ((1U << group.count) - 1);
     }
     HWY_INLINE void test_candidates() {
         for (int i = 0; i < candidate_count_; ++i) {
