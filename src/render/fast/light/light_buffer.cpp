@@ -261,11 +261,11 @@ class LightBufferMaker {
         out_.entries.resize(LightGroup::kWords *
                             (std::size_t{out_.starts[cells_]} + LightGroup::kMost));
         next_.assign(out_.starts.begin(), out_.starts.end() - 1);
-        const auto put = [&](const Record& record) { list(record); };
         if (out_.near_first)
-            for (const auto& [near, i] : by_nearness()) put(records_[i]);
+            for (const auto& [near, i] : by_nearness()) list(records_[i]);
         else
-            std::for_each_n(records_.begin(), used_, put);
+            std::for_each_n(records_.begin(), used_,
+                            [&](const Record& record) HWY_ATTR { list(record); });
         const LightGrid coarsest = out_.grids.back();
         std::erase_if(out_.grids, [&](const LightGrid& grid) {
             return out_.starts[grid.first_cell] == out_.starts[grid.first_cell + cells_of(grid)];
@@ -273,7 +273,7 @@ class LightBufferMaker {
         if (out_.grids.empty()) out_.grids.push_back(coarsest);  // nothing hides anything
         for (LightGrid& grid : out_.grids) find_empty_cells(grid);
     }
-    void list(const Record& record) {
+    HWY_INLINE void list(const Record& record) {
         const LightGrid& grid = out_.grids[record.grid];
         const int counts[2] = {grid.columns, grid.rows};
         CellBox box;
@@ -291,13 +291,13 @@ class LightBufferMaker {
             }
             const std::uint32_t number = next_[cell]++ - out_.starts[cell];
             const std::uint32_t in_group = number % LightGroup::kMost;
-            const LightGroup group =
-                out_.group(out_.starts[cell] + number - in_group, out_.starts[cell + 1]);
+            const std::uint32_t group = out_.starts[cell] + number - in_group;
+            const std::size_t count = out_.group(group, out_.starts[cell + 1]).count;
             std::uint32_t* const words =
-                out_.entries.data() + (group.words - out_.entries.data()) + in_group;
+                out_.entries.data() + LightGroup::kWords * std::size_t{group} + in_group;
             words[0] = part.item();
-            words[group.count] = std::bit_cast<std::uint32_t>(record.item.near);
-            words[2 * std::size_t{group.count}] = record.item.place;
+            words[count] = std::bit_cast<std::uint32_t>(record.item.near);
+            words[2 * count] = record.item.place;
         });
     }
     std::vector<std::pair<float, std::uint32_t>> by_nearness() const {

@@ -16,10 +16,10 @@
 
 namespace nuvo {
 
-/// Boxes are told apart by so many steps a cell, on both axes.
+/// Lists tell places within a cell by so many steps on both axes.
 inline constexpr std::uint32_t kCellSteps = 128;
 
-/// Steps of cells, from the first cell of `count` on, of one of kLightSteps: monotonic.
+/// One of kLightSteps in steps of `count` cells, counted from the first cell on: monotonic.
 inline std::uint32_t cell_step(std::uint32_t step, int count) {
     return step * static_cast<std::uint32_t>(count) / (kLightSteps / kCellSteps);
 }
@@ -78,8 +78,8 @@ struct LightBuffer {
     std::size_t memory_bytes() const {
         return (starts.size() + occupied.size() + entries.size()) * sizeof(std::uint32_t);
     }
-    /// Up to kGroup entries of a list that ends at `end`, from `begin` on, a whole number of groups
-    /// behind its start.
+    /// The next group of a list that ends at `end`; `begin` is a whole number of groups behind the
+    /// list's start.
     LightGroup group(std::uint32_t begin, std::uint32_t end) const {
         return {entries.data() + LightGroup::kWords * std::size_t{begin},
                 std::min(LightGroup::kMost, end - begin)};
