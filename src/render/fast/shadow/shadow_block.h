@@ -60,9 +60,10 @@ class ShadowBlock {
     /// Ends the waiting of lanes.
     HWY_INLINE void block(std::uint32_t lanes) { waiting_ &= ~lanes; }
 
-    /// Whether those of `lanes` that wait all lie on the triangle, which does not hide them then.
-    HWY_INLINE bool only_own(Slot triangle, std::uint32_t lanes) const {
-        return (waiting_ & lanes & ~own(triangle)) == 0;
+    /// The item on which all of `lanes` lie; kNoSlot: on several.
+    HWY_INLINE Slot common(std::uint32_t lanes) const {
+        const auto slot = static_cast<Slot>(slots_[std::countr_zero(lanes)]);
+        return (lanes & ~own(slot)) == 0 ? slot : kNoSlot;
     }
     /// Asks whether the item at a place of the table hides the light from `lanes`; of other lanes
     /// it may find so, too.

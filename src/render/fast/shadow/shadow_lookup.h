@@ -92,6 +92,7 @@ class ShadowLookup {
         std::uint16_t lanes;
         std::uint32_t window;  // CellBox::window()
         float depth;
+        Slot own;             // on which all the points lie, or kNoSlot
         std::uint32_t begin;  // its entries
         std::uint32_t end;
     };
@@ -118,6 +119,7 @@ class ShadowLookup {
         visit.cell = cell;
         visit.block = static_cast<std::uint16_t>(b);
         visit.lanes = static_cast<std::uint16_t>(lanes);
+        visit.own = blocks_[b].common(lanes);
         hwy::Prefetch(&buffer_.starts[cell]);
         return visit;
     }
@@ -241,7 +243,7 @@ class ShadowLookup {
             for (std::uint32_t found = meets(group, visit); found != 0; found &= found - 1) {
                 const Slot place = group.places()[std::countr_zero(found)];
                 if (place < table.triangles) {
-                    if (block.only_own(table.slot(place), visit.lanes)) continue;
+                    if (table.slot(place) == visit.own) continue;  // it does not hide itself
                     hwy::Prefetch(&table.planes[place]);
                 } else {
                     hwy::Prefetch(&context_.job.tables.quadric(table.slot(place)));
