@@ -33,7 +33,8 @@ struct View {
 };
 
 inline Camera random_camera(std::mt19937_64& random, bool telescope = false) {
-    Camera camera = camera_along(uniform_point(random, 1), uniform_point(random, 1));
+    const Point3 eye = uniform_point(random, 1);
+    Camera camera = camera_along(eye, uniform_point(random, 1));
     if (random() % 3 == 0) camera.field_of_view_rad = uniform(random, 1, 2.9);
     if (telescope) camera.field_of_view_rad = std::exp2(uniform(random, -36, -24));
     return camera;

@@ -84,7 +84,8 @@ Findings compare_alone(const Scene& scene, InstructionSet isa) {
 Scene scene_around_the_camera(unsigned seed) {
     std::mt19937_64 random(seed);
     Scene scene;
-    scene.camera = camera_along(uniform_point(random, 1), uniform_point(random, 1));
+    const Point3 eye = uniform_point(random, 1);
+    scene.camera = camera_along(eye, uniform_point(random, 1));
     for (int i = 0; i < 150; ++i) {
         const double size = std::exp2(uniform(random, -8, 1));
         Object object;

@@ -24,7 +24,8 @@ TEST(PixelBounds, HoldThePixelThatASphereTouches) {
         int known = 0, tight = 0;
         for (int round = 0; round < 3000; ++round) {
             Scene scene;
-            scene.camera = camera_along(uniform_point(random, 1), uniform_point(random, 1));
+            const Point3 eye = uniform_point(random, 1);
+            scene.camera = camera_along(eye, uniform_point(random, 1));
             scene.camera.field_of_view_rad = uniform(random, 0.3, 2);
             const CameraRays rays(scene.camera, kPicture, LocalFrame{{}, 1, 0.25});
             const int x = static_cast<int>(random() % 60'000);
