@@ -20,10 +20,11 @@ namespace nuvo::HWY_NAMESPACE {
 /// 16 points, by lane.
 class CountedPoints {
   public:
-    HWY_INLINE CountedPoints(const WantedDepths& depths, const Points& points, const Floats& error,
-                             std::uint32_t there)
+    /// `places`: by the map of `depths`, or by another of the same light and scene, which may have
+    /// other steps and know fewer points.
+    HWY_INLINE CountedPoints(const WantedDepths& depths, const LightPlaces& places,
+                             const Floats& error, std::uint32_t there)
         : side_(depths.cells_a_side()) {
-        const LightPlaces places(depths.map(), depths.light(), points, error);
         lanes = there & places.known;
         if (lanes == 0) return;
         for (int i = 0; i < 2; ++i) {
@@ -74,9 +75,9 @@ class CountedPoints {
 
 /// Which of `lanes` lie in no cell deeper than a point that was counted there: items that may hide
 /// them are wanted.
-HWY_NOINLINE inline std::uint32_t covered(const WantedDepths& depths, const Points& points,
+HWY_NOINLINE inline std::uint32_t covered(const WantedDepths& depths, const LightPlaces& places,
                                           const Floats& error, std::uint32_t lanes) {
-    const CountedPoints counted(depths, points, error, lanes);
+    const CountedPoints counted(depths, places, error, lanes);
     if (counted.lanes == 0) return 0;
     const float* const cells = depths.cells();
     const Floats known =

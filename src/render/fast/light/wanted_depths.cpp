@@ -20,13 +20,16 @@ bool start_map(const LightPoint& light, const FastScene& scene, LightMap& map, f
     return ranges.start(light, scene, map, extent);
 }
 
-HWY_INLINE Points points_of(const Tile& tile, int b) {
-    const int first = b * kBlockLanes;
-    return {Floats::load(tile.point[0] + first), Floats::load(tile.point[1] + first),
-            Floats::load(tile.point[2] + first)};
-}
 HWY_INLINE Floats errors_of(const Tile& tile, int b) {
     return Floats::load(tile.point_error + b * kBlockLanes);
+}
+HWY_INLINE LightPlaces places_of(const WantedDepths& depths, const Tile& tile, int b) {
+    const int first = b * kBlockLanes;
+    return {depths.map(),
+            depths.light(),
+            {Floats::load(tile.point[0] + first), Floats::load(tile.point[1] + first),
+             Floats::load(tile.point[2] + first)},
+            errors_of(tile, b)};
 }
 
 void deepen(float* cells, std::int32_t place, float depth) {
@@ -42,7 +45,8 @@ void add_points(const WantedDepths& depths, float* cells, const Tile& tile,
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
     for (int b = 0; b < kTileBlocks; ++b) {
         if (wanted[b] == 0) continue;
-        const CountedPoints points(depths, points_of(tile, b), errors_of(tile, b), wanted[b]);
+        const CountedPoints points(depths, places_of(depths, tile, b), errors_of(tile, b),
+                                   wanted[b]);
         if (points.lanes == 0) continue;
         alignas(64) std::int32_t place[kBlockLanes];
         points.cell.store(place);
@@ -63,7 +67,7 @@ void covered_points(const WantedDepths& depths, const Tile& tile, TileMask& lane
     for (int b = 0; b < kTileBlocks; ++b)
         if (lanes[b] != 0)
             lanes[b] = static_cast<std::uint16_t>(
-                covered(depths, points_of(tile, b), errors_of(tile, b), lanes[b]));
+                covered(depths, places_of(depths, tile, b), errors_of(tile, b), lanes[b]));
 }
 
 }  // namespace nuvo::HWY_NAMESPACE

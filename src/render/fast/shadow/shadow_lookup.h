@@ -37,9 +37,9 @@ class ShadowLookup {
         if (!buffer_.usable()) return 0;
         const ShadowBlock& block = blocks_[b];
         const LightPlaces places(buffer_.map, context_.table.light, block.points(), block.error());
-        const std::uint32_t there = counted_ == nullptr ? block.waiting()
-                                                        : covered(*counted_, block.points(),
-                                                                  block.error(), block.waiting());
+        const std::uint32_t there =
+            counted_ == nullptr ? block.waiting()
+                                : covered(*counted_, places, block.error(), block.waiting());
         const std::uint32_t good = there & places.good;
         Stored stored;
         for (int i = 0; i < 2; ++i) places.step[i].store(stored.step[i]);
