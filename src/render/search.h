@@ -262,9 +262,6 @@ class NudgedSearch {
     }
 
   private:
-    // Slack of the bounds check, in scene units: the program's epsilon. [5.5]
-    static constexpr Scalar kTolerance = static_cast<Scalar>(1e-5);
-
     template <typename Visit>
     void walk(const RayT<Scalar>& line, WalkStart start, Visit&& visit) const {
         walk_(
@@ -276,7 +273,9 @@ class NudgedSearch {
     }
 
     bool inside(const Node& leaf, const RayT<Scalar>& line, Scalar t) const {
-        return decltype(walk_)::bounds_of(leaf).inflated(kTolerance).contains(line.at(t));
+        return decltype(walk_)::bounds_of(leaf)
+            .inflated(static_cast<Scalar>(kPublishedEpsilon))
+            .contains(line.at(t));
     }
 
     PrimitiveRange of_item(ItemId item) const {

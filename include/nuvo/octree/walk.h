@@ -240,6 +240,11 @@ class ExactWalk {
 /// [thesis 5.3.2]
 enum class WalkStart { kRoot, kLeaf };
 
+/// The published program's epsilon, in scene units, for what reproduces that program: a face this
+/// near counts as behind the ray, and a hit this far out of a leaf as in it. It bounds no error;
+/// the exact walk and tests have none. [thesis 5.5]
+inline constexpr double kPublishedEpsilon = 1e-5;
+
 /// The published walk: a point is pushed past each face by `step` times the smallest voxel width.
 /// `visit(leaf)` returns true to end the walk. Leaves can be missed, and the walk gives up where
 /// the pushed point makes no headway. [thesis 4.4.4, 5.4.3]
@@ -280,13 +285,10 @@ class NudgedWalk {
     }
 
   private:
-    // A face this near counts as behind the ray: the program's epsilon, in scene units. [5.5]
-    static constexpr T kLeastWay = static_cast<T>(1e-5);
-
     struct Crossings {
         T near;
         T far;
-        bool hit() const { return near < far && far > kLeastWay; }
+        bool hit() const { return near < far && far > static_cast<T>(kPublishedEpsilon); }
     };
 
     // A voxel search: the leaf after `node`, or the first one where `node` is cut.

@@ -100,9 +100,8 @@ struct Frame::Tables {
             hits.seen->add(std::array<Slot, 1>{0});
         } else if (shadow != nullptr && shadow->complete()) {
             take_quadrics(scene, options.threads);
-            TriangleSet all(scene);
-            all.add_all();
-            surfaces->fill(all, options.threads);
+            if (!surfaces->triangles.known.has_all())
+                fill_tables(scene, options.threads, *surfaces);
         } else {
             shadow = &kept.keep_shadows([&] {
                 ShadowTables all(scene, options.isa, options.threads);

@@ -274,30 +274,19 @@ class LightBufferMaker {
         for (LightGrid& grid : out_.grids) find_empty_cells(grid);
     }
     HWY_INLINE void list(const Record& record) {
-        const LightGrid& grid = out_.grids[record.grid];
-        const int counts[2] = {grid.columns, grid.rows};
-        CellBox box;
-        for (int i = 0; i < 2; ++i) {
-            box.low[i] = cell_step(record.item.low[i], counts[i]) % kCellSteps;
-            box.high[i] = cell_step(record.item.high[i], counts[i]) % kCellSteps;
-        }
-        const std::uint32_t last[2] = {record.columns - 1U, record.rows - 1U};
+        const Item& item = record.item;
+        const CellSteps steps(out_.grids[record.grid], {item.low[0], item.low[1]},
+                              {item.high[0], item.high[1]});
         for_each_cell(record, [&](std::uint32_t cell, std::uint32_t x, std::uint32_t y) {
-            const std::uint32_t at[2] = {x, y};
-            CellBox part;
-            for (int i = 0; i < 2; ++i) {
-                part.low[i] = at[i] == 0 ? box.low[i] : 0;
-                part.high[i] = at[i] == last[i] ? box.high[i] : kCellSteps - 1;
-            }
             const std::uint32_t number = next_[cell]++ - out_.starts[cell];
             const std::uint32_t in_group = number % LightGroup::kMost;
             const std::uint32_t group = out_.starts[cell] + number - in_group;
             const std::size_t count = out_.group(group, out_.starts[cell + 1]).count;
             std::uint32_t* const words =
                 out_.entries.data() + LightGroup::kWords * std::size_t{group} + in_group;
-            words[0] = part.item();
-            words[count] = std::bit_cast<std::uint32_t>(record.item.near);
-            words[2 * count] = record.item.place;
+            words[0] = steps.in(steps.first_cell(0) + x, steps.first_cell(1) + y).item();
+            words[count] = std::bit_cast<std::uint32_t>(item.near);
+            words[2 * count] = item.place;
         });
     }
     std::vector<std::pair<float, std::uint32_t>> by_nearness() const {

@@ -65,6 +65,31 @@ struct LightGroup {
     const Slot* places() const { return words + 2 * std::size_t{count}; }
 };
 
+/// Steps of a grid's cells from low to high on both axes, as cell_step() counts them.
+struct CellSteps {
+    /// Of those of kLightSteps from `first` to `last`.
+    CellSteps(const LightGrid& grid, const std::uint32_t (&first)[2],
+              const std::uint32_t (&last)[2])
+        : low{cell_step(first[0], grid.columns), cell_step(first[1], grid.rows)},
+          high{cell_step(last[0], grid.columns), cell_step(last[1], grid.rows)} {}
+
+    std::uint32_t first_cell(int axis) const { return low[axis] / kCellSteps; }
+    std::uint32_t last_cell(int axis) const { return high[axis] / kCellSteps; }
+    /// What lies in a cell that they meet.
+    CellBox in(std::uint32_t column, std::uint32_t row) const {
+        const std::uint32_t start[2] = {column * kCellSteps, row * kCellSteps};
+        CellBox box;
+        for (int i = 0; i < 2; ++i) {
+            box.low[i] = std::max(low[i], start[i]) - start[i];
+            box.high[i] = std::min(high[i] - start[i], kCellSteps - 1);
+        }
+        return box;
+    }
+
+    std::uint32_t low[2];
+    std::uint32_t high[2];
+};
+
 /// The light buffer of one light. Items are listed on the finest grid on which they cover few
 /// cells.
 struct LightBuffer {

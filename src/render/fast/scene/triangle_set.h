@@ -14,6 +14,7 @@ namespace nuvo {
 /// A set of triangles by batches of 8 slots: a batch is in it as a whole.
 class TriangleSet {
   public:
+    TriangleSet() = default;
     /// None of the scene's.
     explicit TriangleSet(const FastScene& scene)
         : end_(scene.triangle_end()), has_((end_ + kBatch - 1) / kBatch, 0) {}
@@ -28,6 +29,9 @@ class TriangleSet {
             std::atomic_ref(has_[batch]).store(1, std::memory_order_relaxed);
         }
     }
+    bool has_all() const {
+        return std::find(has_.begin(), has_.end(), std::uint8_t{0}) == has_.end();
+    }
     void add_all() { std::fill(has_.begin(), has_.end(), std::uint8_t{1}); }
 
     /// About how many triangles: those of whole batches.
@@ -38,7 +42,7 @@ class TriangleSet {
     BigVector<Slot> slots_beside(const TriangleSet& other) const {
         BigVector<Slot> out;
         for (Slot batch = 0; batch < has_.size(); ++batch) {
-            if (has_[batch] <= other.has_[batch]) continue;
+            if (has_[batch] == 0 || other.has_[batch] != 0) continue;
             for (Slot slot = batch * kBatch; slot < std::min(end_, (batch + 1) * kBatch); ++slot)
                 out.push_back(slot);
         }
@@ -49,7 +53,7 @@ class TriangleSet {
   private:
     static constexpr Slot kBatch = TriangleBatch::kSize;
 
-    Slot end_;
+    Slot end_ = 0;
     BigVector<std::uint8_t> has_;
 };
 

@@ -264,7 +264,8 @@ void bound_points(ShadingTables& tables) {
 ShadingTriangles unknown_triangles(const ShadingTables& tables) {
     const FastScene& scene = tables.scene;
     const std::size_t count = scene.triangle_end();
-    ShadingTriangles triangles(scene);
+    ShadingTriangles triangles;
+    triangles.known = TriangleSet(scene);
     if (!tables.uniform) triangles.words.resize(count);
     const bool few_lights = tables.lights.size() <= kLightsWithCosines;
     triangles.cosines.resize(tables.lights.size());
@@ -358,12 +359,7 @@ SurfaceWord surface_word(const ShadingTables& tables, const Object& object) {
 ShadingTables::ShadingTables(const FastScene& scene_in, const CameraRays& camera_in,
                              const CameraTables& quadrics_in, InstructionSet isa_in,
                              std::optional<ShadingTriangles> kept)
-    : scene(scene_in),
-      camera(camera_in),
-      isa(isa_in),
-      quadrics(quadrics_in),
-      rays(camera_in),
-      triangles(scene) {
+    : scene(scene_in), camera(camera_in), isa(isa_in), quadrics(quadrics_in), rays(camera_in) {
     bound_points(*this);
     add_materials(*this);
     add_mesh_flags(*this);

@@ -97,8 +97,6 @@ static_assert(sizeof(SmoothTriangle) == 64);
 /// What shading knows of each triangle. Of flat ones that are solid it does not depend on the
 /// camera, so it is good for the next picture, too.
 struct ShadingTriangles {
-    explicit ShadingTriangles(const FastScene& scene) : known(scene) {}
-
     TriangleSet known;             ///< filled in
     BigVector<SurfaceWord> words;  ///< by slot; empty: all are the same
     /// By light and slot of a flat triangle: gain times n.l (directional) or n.(L - a), n turned as

@@ -127,14 +127,16 @@ class ShadowLookup {
     // Points that are known less well are looked up in all cells where they may be, if these are
     // few.
     HWY_NOINLINE std::uint32_t add_rough(int b, const LightPlaces& places, std::uint32_t lanes) {
-        constexpr int kFew = 16;
+        constexpr std::uint32_t kFew = 16;
         const Floats& error = blocks_[b].error();
         const Floats& moved = places.moved;
         Rough rough;
         RayMask on_face = moved >= Floats(0.0F);
         for (int i = 0; i < 2; ++i) {
-            integers_from(step_of(buffer_.map, i, places.u[i] - moved)).store(rough.low[i]);
-            integers_from(step_of(buffer_.map, i, places.u[i] + moved)).store(rough.high[i]);
+            integers_from(step_of(buffer_.map, i, places.u[i] - moved))
+                .store(reinterpret_cast<std::int32_t*>(rough.low[i]));
+            integers_from(step_of(buffer_.map, i, places.u[i] + moved))
+                .store(reinterpret_cast<std::int32_t*>(rough.high[i]));
             if (buffer_.map.inside) on_face = on_face & (abs(places.u[i]) + moved < Floats(1.0F));
         }
         (places.depth + error).store(rough.depth);
@@ -143,79 +145,64 @@ class ShadowLookup {
         for (lanes &= on_face.bits(); lanes != 0; lanes &= lanes - 1) {
             const int lane = std::countr_zero(lanes);
             // On coarser grids they are fewer.
-            if (cells_of(rough, lane, buffer_.grids.front()).count() > kFew) continue;
+            if (cell_count(rough.steps(lane, buffer_.grids.front())) > kFew) continue;
             added |= 1U << lane;
             for (const LightGrid& grid : buffer_.grids) add_rough(b, rough, lane, grid);
         }
         return added;
     }
     struct Rough {
-        alignas(64) std::int32_t low[2][16];
-        alignas(64) std::int32_t high[2][16];
+        alignas(64) std::uint32_t low[2][16];
+        alignas(64) std::uint32_t high[2][16];
         alignas(64) std::int32_t face[16];
         alignas(64) float depth[16];
-    };
-    struct Cells {
-        int low[2];
-        int high[2];
-        int count() const { return (high[0] - low[0] + 1) * (high[1] - low[1] + 1); }
-    };
-    static Cells cells_of(const Rough& rough, int lane, const LightGrid& grid) {
-        const auto at = [](std::uint32_t step, int count) {
-            return static_cast<int>(step * static_cast<std::uint32_t>(count) / kLightSteps);
-        };
-        Cells cells;
-        const int counts[2] = {grid.columns, grid.rows};
-        for (int i = 0; i < 2; ++i) {
-            cells.low[i] = at(static_cast<std::uint32_t>(rough.low[i][lane]), counts[i]);
-            cells.high[i] = at(static_cast<std::uint32_t>(rough.high[i][lane]), counts[i]);
+
+        CellSteps steps(int lane, const LightGrid& grid) const {
+            return {grid, {low[0][lane], low[1][lane]}, {high[0][lane], high[1][lane]}};
         }
-        return cells;
+    };
+    static std::uint32_t cell_count(const CellSteps& steps) {
+        return (steps.last_cell(0) - steps.first_cell(0) + 1) *
+               (steps.last_cell(1) - steps.first_cell(1) + 1);
     }
     void add_rough(int b, const Rough& rough, int lane, const LightGrid& grid) {
-        const Cells cells = cells_of(rough, lane, grid);
-        for (int row = cells.low[1]; row <= cells.high[1]; ++row)
-            for (int column = cells.low[0]; column <= cells.high[0]; ++column) {
-                const int cell = (rough.face[lane] * grid.rows + row) * grid.columns + column;
-                Visit& visit =
-                    add_visit(b, 1U << lane, grid.first_cell + static_cast<std::uint32_t>(cell));
-                const int at[2] = {column, row};
-                const int counts[2] = {grid.columns, grid.rows};
-                CellBox box;
-                for (int i = 0; i < 2; ++i) {
-                    box.low[i] = at[i] > cells.low[i] ? 0 : within(rough.low[i][lane], counts[i]);
-                    box.high[i] = at[i] < cells.high[i] ? kCellSteps - 1
-                                                        : within(rough.high[i][lane], counts[i]);
-                }
-                visit.window = box.window();
+        const CellSteps steps = rough.steps(lane, grid);
+        const auto columns = static_cast<std::uint32_t>(grid.columns);
+        const auto first_row = static_cast<std::uint32_t>(rough.face[lane] * grid.rows);
+        for (std::uint32_t row = steps.first_cell(1); row <= steps.last_cell(1); ++row)
+            for (std::uint32_t column = steps.first_cell(0); column <= steps.last_cell(0);
+                 ++column) {
+                const std::uint32_t cell = (first_row + row) * columns + column;
+                Visit& visit = add_visit(b, 1U << lane, grid.first_cell + cell);
+                visit.window = steps.in(column, row).window();
                 visit.depth = rough.depth[lane];
             }
     }
 
-    static std::uint32_t within(std::int32_t step, int count) {
-        return cell_step(static_cast<std::uint32_t>(step), count) % kCellSteps;
+    // The window of steps in the cell where they are.
+    static std::uint32_t window_of(const LightGrid& grid, const std::uint32_t (&first)[2],
+                                   const std::uint32_t (&last)[2]) {
+        const CellSteps steps(grid, first, last);
+        return steps.in(steps.first_cell(0), steps.first_cell(1)).window();
     }
     static HWY_INLINE void put_window(Visit& visit, const LightGrid& grid, const Stored& stored,
                                       int lane) {
-        const std::uint32_t at[2] = {
-            within(static_cast<std::int32_t>(stored.step[0][lane]), grid.columns),
-            within(static_cast<std::int32_t>(stored.step[1][lane]), grid.rows)};
-        visit.window = CellBox{{at[0], at[1]}, {at[0], at[1]}}.window();
+        const std::uint32_t at[2] = {static_cast<std::uint32_t>(stored.step[0][lane]),
+                                     static_cast<std::uint32_t>(stored.step[1][lane])};
+        visit.window = window_of(grid, at, at);
         visit.depth = stored.depth[lane];
     }
     static HWY_INLINE void put_window(Visit& visit, const LightGrid& grid,
                                       const LightPlaces& places, std::uint32_t lanes) {
         const RayMask there = RayMask::from_bits(lanes);
-        const int counts[2] = {grid.columns, grid.rows};
-        CellBox box;
+        std::uint32_t first[2];
+        std::uint32_t last[2];
         for (int i = 0; i < 2; ++i) {
             const Floats& step = places.step[i];
-            const float low = lowest(select(there, step, Floats(kLightSteps)));
-            const float high = highest(select(there, step, Floats(0.0F)));
-            box.low[i] = within(static_cast<std::int32_t>(low), counts[i]);
-            box.high[i] = within(static_cast<std::int32_t>(high), counts[i]);
+            first[i] = static_cast<std::uint32_t>(lowest(select(there, step, Floats(kLightSteps))));
+            last[i] = static_cast<std::uint32_t>(highest(select(there, step, Floats(0.0F))));
         }
-        visit.window = box.window();
+        visit.window = window_of(grid, first, last);
         visit.depth =
             highest(select(there, places.depth, Floats(-std::numeric_limits<float>::infinity())));
     }

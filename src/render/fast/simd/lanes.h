@@ -140,12 +140,6 @@ struct Lanes : LaneShape<T, N> {
         }
         return v;
     }
-    /// Lane i of the four results: from[4 i], from[4 i + 1], from[4 i + 2], from[4 i + 3].
-    static HWY_INLINE void load_by_fours(const T* from, Lanes& a, Lanes& b, Lanes& c, Lanes& d) {
-        for (std::size_t i = 0; i < Shape::kParts; ++i)
-            hn::LoadInterleaved4(Tag(), from + 4 * i * Shape::kPart, a.part[i], b.part[i],
-                                 c.part[i], d.part[i]);
-    }
     HWY_INLINE void store(T* to) const {
         for (std::size_t i = 0; i < Shape::kParts; ++i)
             hn::StoreU(part[i], Tag(), to + i * Shape::kPart);
@@ -388,14 +382,6 @@ template <int kBits>
 HWY_INLINE Ints shift_right(Ints v) {
     for (std::size_t i = 0; i < Ints::Shape::kParts; ++i)
         v.part[i] = hn::ShiftRight<kBits>(v.part[i]);
-    return v;
-}
-/// With zeros.
-template <int kBits>
-HWY_INLINE Ints logical_right(Ints v) {
-    const hn::RebindToUnsigned<Ints::Tag> bits;
-    for (auto& part : v.part)
-        part = hn::BitCast(Ints::Tag(), hn::ShiftRight<kBits>(hn::BitCast(bits, part)));
     return v;
 }
 HWY_INLINE Floats floats_from(const Ints& v) {

@@ -54,11 +54,13 @@ class PairCache {
         return entries_[at];
     }
     void make_room() {
-        const bool full = entries_.size() == kMost;
-        const std::vector<Entry> old = std::exchange(
-            entries_, std::vector<Entry>(full ? kMost : std::max(kLeast, 2 * entries_.size())));
-        if (full) count_ = 0;
-        if (full) return;
+        if (entries_.size() == kMost) {
+            entries_.assign(kMost, Entry{});
+            count_ = 0;
+            return;
+        }
+        const std::vector<Entry> old =
+            std::exchange(entries_, std::vector<Entry>(std::max(kLeast, 2 * entries_.size())));
         for (const Entry& entry : old)
             if (entry.pair.first != kNoSlot) place_of(entry.pair) = entry;
     }
