@@ -27,7 +27,9 @@ struct LeafQuestion {
 HWY_BEFORE_NAMESPACE();
 namespace nuvo::HWY_NAMESPACE {
 
-void put(const LeafHits& hits, LeafAnswers& out) {
+using LeafMask = LaneMask<float, kLeafLanes>;
+
+void put(const LeafHits<kLeafLanes>& hits, LeafAnswers& out) {
     out.sure = hits.sure.bits();
     out.open = hits.open.bits();
     hits.low.store(out.low);
@@ -35,12 +37,14 @@ void put(const LeafHits& hits, LeafAnswers& out) {
 }
 void ask_triangles(const LeafQuestion& q, const std::uint16_t* corners, LeafAnswers& out) {
     const RayAtLeaf ray(q.rays, 0, q.head, q.entry);
-    put(test_triangles(ray, corners, kLeafLanes, kLeafLanes, LeafMask::from_bits(q.front), 1.0F),
+    put(test_triangles<kLeafLanes>(ray, corners, kLeafLanes, LeafMask::from_bits(q.front), 1.0F),
         out);
 }
 void ask_spheres(const LeafQuestion& q, const float* values, LeafAnswers& out) {
     const RayAtLeaf ray(q.rays, 0, q.head, q.entry);
-    put(test_spheres(ray, values, kLeafLanes, kLeafLanes, LeafMask::from_bits(q.front), 1.0F), out);
+    put(test_spheres<kLeafLanes>(ray, values, kLeafLanes, kLeafLanes, LeafMask::from_bits(q.front),
+                                 1.0F),
+        out);
 }
 
 }  // namespace nuvo::HWY_NAMESPACE

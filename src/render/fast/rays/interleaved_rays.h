@@ -48,12 +48,7 @@ class InterleavedRays {
             do {
                 step_all();
             } while (at_nodes_.count >= kInterleaved / 2);
-            for (std::size_t count = at_leaves_.restart(), i = 0; i < count; ++i) {
-                RayState& state = *at_leaves_.state[i];
-                test_leaf(state);
-                state.take_next();
-                queue(state);
-            }
+            test_leaves();
             for (std::size_t count = finished_.restart(), i = 0; i < count; ++i) {
                 RayState& state = *finished_.state[i];
                 finish(state);
@@ -82,6 +77,23 @@ class InterleavedRays {
         for (std::size_t i = 0; i < count; ++i) step(*at_nodes_.state[i]);
         for (std::size_t i = 0; i < count; ++i) {
             RayState& state = *at_nodes_.state[i];
+            state.take_next();
+            queue(state);
+        }
+    }
+
+    // In three passes, for the same reason.
+    HWY_NOINLINE void test_leaves() {
+        const std::size_t count = at_leaves_.restart();
+        for (std::size_t i = 0; i < count; ++i) {
+            RayState& state = *at_leaves_.state[i];
+            test_leaf(state);
+            with_hits_.add(state, static_cast<std::size_t>(state.block.kept != 0));
+        }
+        for (std::size_t hits = with_hits_.restart(), i = 0; i < hits; ++i)
+            keep(*with_hits_.state[i]);
+        for (std::size_t i = 0; i < count; ++i) {
+            RayState& state = *at_leaves_.state[i];
             state.take_next();
             queue(state);
         }
@@ -175,48 +187,69 @@ class InterleavedRays {
         const std::uint32_t* const behind =
             head.more ? other_slots + others + std::size_t{4} * spheres + (9 * triangles + 1) / 2
                       : nullptr;
-        if (power_of_two(head.finest) < static_cast<double>(state.rays->direction[state.lane][3])) {
+        if (head.base[3] < state.rays->direction[state.lane][3]) {
             add_open(state, slots, triangles + spheres + others);
             return behind;
         }
         const RayAtLeaf at(*state.rays, state.lane, head, state.next_entry);
-        for (std::uint32_t i = 0; i < triangles; i += kLeafLanes)
+        in_blocks(triangles, [&](auto block, std::uint32_t i) HWY_ATTR {
+            constexpr std::size_t kLanes = block;
             take(state, at,
-                 test_triangles(at, corners + i, triangles, triangles - i, front_only(slots + i),
-                                rays_.bounds_scale()),
+                 test_triangles<kLanes>(at, corners + i, triangles, front_only<kLanes>(slots + i),
+                                        rays_.bounds_scale()),
                  slots + i, triangles - i);
-        for (std::uint32_t i = 0; i < spheres; i += kLeafLanes)
+        });
+        const Slot* const sphere_slots = slots + triangles;
+        in_blocks(spheres, [&](auto block, std::uint32_t i) HWY_ATTR {
+            constexpr std::size_t kLanes = block;
             take(state, at,
-                 test_spheres(at, centers + i, spheres, spheres - i,
-                              front_only(slots + triangles + i), rays_.bounds_scale()),
-                 slots + triangles + i, spheres - i);
+                 test_spheres<kLanes>(at, centers + i, spheres, spheres - i,
+                                      front_only<kLanes>(sphere_slots + i), rays_.bounds_scale()),
+                 sphere_slots + i, spheres - i);
+        });
         if (others != 0) add_open(state, other_slots, others);
         return behind;
     }
 
-    HWY_INLINE void take(RayState& state, const RayAtLeaf& at, const LeafHits& hits,
+    // Few fill more than 8 lanes; the rest take 16 at once.
+    template <typename Test>
+    HWY_INLINE static void in_blocks(std::uint32_t count, const Test& test) {
+        for (std::uint32_t i = 0; i < count; i += kMostLeafLanes)
+            if (count - i > kLeafLanes)
+                test(std::integral_constant<std::size_t, kMostLeafLanes>(), i);
+            else
+                test(std::integral_constant<std::size_t, kLeafLanes>(), i);
+    }
+
+    // What a leaf's last block of primitives says waits with its ray until all rays' leaves are
+    // tested.
+    template <std::size_t N>
+    HWY_INLINE void take(RayState& state, const RayAtLeaf& at, const LeafHits<N>& hits,
                          const Slot* slots, std::uint32_t count) const {
-        const std::uint32_t lanes = first_lanes(count);
+        using LeafFloats = Lanes<float, N>;
+        using LeafMask = LaneMask<float, N>;
+        if (state.block.kept != 0) keep(state);
         const LeafFloats behind(at.behind);
         const LeafMask nearer = hits.low <= LeafFloats(state.best);
         const LeafMask sure = hits.sure & (hits.low > behind);
         const LeafMask perhaps = (hits.sure | hits.open) & nearer & (hits.high >= behind);
-        const std::uint32_t kept = perhaps.bits() & lanes;
-        if (kept != 0) keep(state, hits, slots, sure.bits(), kept);
+        hits.low.store(state.block.low);
+        hits.high.store(state.block.high);
+        state.block.slots = slots;
+        state.block.sure = sure.bits();
+        state.block.kept = perhaps.bits() & first_lanes<N>(count);
     }
 
-    HWY_NOINLINE void keep(RayState& state, const LeafHits& hits, const Slot* slots,
-                           std::uint32_t sure, std::uint32_t kept) const {
-        alignas(64) float low[kLeafLanes];
-        alignas(64) float high[kLeafLanes];
-        hits.low.store(low);
-        hits.high.store(high);
-        for (; kept != 0; kept &= kept - 1) {
+    HWY_NOINLINE void keep(RayState& state) const {
+        const RayState::Block& block = state.block;
+        for (std::uint32_t kept = std::exchange(state.block.kept, 0U); kept != 0;
+             kept &= kept - 1) {
             const int lane = std::countr_zero(kept);
-            const bool is_sure = (sure >> lane & 1) != 0;
-            if (low[lane] > state.best) continue;
-            add(state, {low[lane], high[lane], slots[lane] & ~kFrontOnly, is_sure});
-            if (is_sure) state.best = std::min(state.best, high[lane]);
+            const bool is_sure = (block.sure >> lane & 1) != 0;
+            if (block.low[lane] > state.best) continue;
+            add(state,
+                {block.low[lane], block.high[lane], block.slots[lane] & ~kFrontOnly, is_sure});
+            if (is_sure) state.best = std::min(state.best, block.high[lane]);
         }
         drop_levels(state);
     }
@@ -277,6 +310,7 @@ class InterleavedRays {
     std::size_t next_ = 0;
     Queue at_nodes_;
     Queue at_leaves_;
+    Queue with_hits_;
     Queue finished_;
     RayState states_[kInterleaved];
     RayBlock blocks_[kRayBatch / RayLanes::kRays];

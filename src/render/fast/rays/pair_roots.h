@@ -43,6 +43,10 @@ struct alignas(64) PairRoots {
         b[0][i] = sphere.radius;
         set(i, ray, sphere.center);
     }
+    void set_front_only(std::size_t i, bool so) {
+        const std::uint32_t bit = std::uint32_t{1} << i;
+        front_only = so ? front_only | bit : front_only & ~bit;
+    }
 
   private:
     void set(std::size_t i, const Ray& ray, const Point3& at) {

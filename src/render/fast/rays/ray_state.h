@@ -69,6 +69,15 @@ struct RayState {
         std::uint32_t unused[15];
     };
 
+    /// What is known of a block of primitives of a leaf and not yet among the candidates.
+    struct Block {
+        std::uint32_t kept = 0;  ///< those that the ray may meet, one bit each
+        std::uint32_t sure;      ///< of these
+        const Slot* slots;
+        float low[kMostLeafLanes];
+        float high[kMostLeafLanes];
+    };
+
     std::uint32_t next = 0;  ///< what comes next (WideNode::child), or kFinished
     float next_entry = 0;    ///< where the ray enters it
     float best = 0;          ///< the nearest sure hit's upper bound
@@ -78,6 +87,7 @@ struct RayState {
     std::size_t index = 0;    ///< among the batch's rays
     const RayLanes* rays = nullptr;
     std::size_t lane = 0;  ///< among these
+    Block block;
     /// The first one holds only kFinished.
     Level levels[CompactOctree::kMaxDepth + 2];
     RayCandidate candidates[kMaxCandidates];

@@ -99,7 +99,8 @@ std::optional<SingleRays::Nearest> SingleRays::nearest_of(const Ray& ray,
     const auto triangles = static_cast<std::size_t>(
         std::lower_bound(slots.begin(), slots.end(), scene_.triangle_end()) - slots.begin());
     PairRoots roots;
-    for (std::size_t i = 0; i < triangles; ++i) set_pair(roots, i, ray, slots[i]);
+    for (std::size_t i = 0; i < triangles; ++i)
+        set_triangle(roots, i, ray, scene_.source(slots[i]));
     roots_.find_triangles(roots, triangles);
     double end = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < triangles; ++i)
@@ -136,18 +137,19 @@ double SingleRays::root_of(const Ray& ray, Slot slot) const {
     return kernel_.hit_of(kernel_.prepare(ray), scene_.id(slot))->root.t;
 }
 
-void SingleRays::set_pair(PairRoots& roots, std::size_t i, const Ray& ray, Slot slot) const {
-    const PrimitiveSource& source = scene_.source(slot);
+inline void SingleRays::set_triangle(PairRoots& roots, std::size_t i, const Ray& ray,
+                                     const PrimitiveSource& source) const {
     const MeshPlace& mesh = meshes_[source.object];
-    if (mesh.triangles == nullptr) {
-        roots.set(i, ray, std::get<Sphere>(scene_.scene().objects[source.object].shape));
-    } else {
-        const IndexTriple& corners = mesh.triangles[source.triangle];
-        roots.set(i, ray, mesh.positions[corners[0]], mesh.positions[corners[1]],
-                  mesh.positions[corners[2]]);
-    }
-    const std::uint32_t bit = std::uint32_t{1} << i;
-    roots.front_only = mesh.front_only ? roots.front_only | bit : roots.front_only & ~bit;
+    const IndexTriple& corners = mesh.triangles[source.triangle];
+    roots.set(i, ray, mesh.positions[corners[0]], mesh.positions[corners[1]],
+              mesh.positions[corners[2]]);
+    roots.set_front_only(i, mesh.front_only);
+}
+
+inline void SingleRays::set_sphere(PairRoots& roots, std::size_t i, const Ray& ray,
+                                   const Object& object) const {
+    roots.set(i, ray, std::get<Sphere>(object.shape));
+    roots.set_front_only(i, scene_.front_only(object));
 }
 
 namespace {
@@ -165,26 +167,27 @@ struct Pending {
 // next.
 inline void SingleRays::prefetch(std::span<const Slot> found) const {
     std::array<const PrimitiveSource*, kRayBatch> sources;
-    std::size_t count = 0;
+    std::size_t triangles = 0;
+    std::size_t others = kRayBatch;  // from the end
     for (const Slot slot : found) {
         if (slot == kNoSlot) continue;
-        sources[count] = &scene_.source(slot);
-        __builtin_prefetch(sources[count++]);
+        const PrimitiveSource* const source = &scene_.source(slot);
+        __builtin_prefetch(source);
+        sources[slot < scene_.triangle_end() ? triangles++ : --others] = source;
     }
-    const std::span known(sources.data(), count);
-    for (const PrimitiveSource* source : known) {
-        const MeshPlace& mesh = meshes_[source->object];
-        if (mesh.triangles != nullptr) {
-            __builtin_prefetch(mesh.triangles + source->triangle);
-        } else {
-            const Object* const object = &scene_.scene().objects[source->object];
-            __builtin_prefetch(object);
-            __builtin_prefetch(reinterpret_cast<const char*>(object + 1) - 1);
-        }
+    const std::span of_triangles(sources.data(), triangles);
+    for (const PrimitiveSource* source : std::span(sources).subspan(others)) {
+        const Object* const object = &object_of(*source);
+        __builtin_prefetch(object);
+        __builtin_prefetch(reinterpret_cast<const char*>(object + 1) - 1);
     }
-    for (const PrimitiveSource* source : known) {
+    if (meshes_.size() * sizeof(MeshPlace) > kCached)
+        for (const PrimitiveSource* source : of_triangles)
+            __builtin_prefetch(&meshes_[source->object]);
+    for (const PrimitiveSource* source : of_triangles)
+        __builtin_prefetch(meshes_[source->object].triangles + source->triangle);
+    for (const PrimitiveSource* source : of_triangles) {
         const MeshPlace& mesh = meshes_[source->object];
-        if (mesh.triangles == nullptr) continue;
         for (const auto corner : mesh.triangles[source->triangle])
             __builtin_prefetch(mesh.positions + corner);
     }
@@ -210,17 +213,23 @@ void SingleRays::answer(std::span<const Ray> rays, const Slot* found, RayAnswer*
             continue;
         }
         const PrimitiveSource& source = scene_.source(found[i]);
-        answers[i] = {true, meshes_[source.object].shape, source.triangle, 0};
+        if (found[i] < scene_.triangle_end()) {
+            answers[i] = {true, meshes_[source.object].shape, source.triangle, 0};
+            triangles.ray[triangles.count] = i;
+            set_triangle(triangles.roots, triangles.count++, rays[i], source);
+            if (triangles.count == PairRoots::kCount)
+                finish(triangles, &PairRootStage::find_triangles);
+            continue;
+        }
+        const Object& object = object_of(source);
+        answers[i] = {true, object.shape_index, source.triangle, 0};
         if (found[i] >= scene_.sphere_end()) {
             answers[i].t = root_of(rays[i], found[i]);
             continue;
         }
-        const bool is_triangle = found[i] < scene_.triangle_end();
-        Pending& some = is_triangle ? triangles : spheres;
-        some.ray[some.count] = i;
-        set_pair(some.roots, some.count++, rays[i], found[i]);
-        if (some.count < PairRoots::kCount) continue;
-        finish(some, is_triangle ? &PairRootStage::find_triangles : &PairRootStage::find_spheres);
+        spheres.ray[spheres.count] = i;
+        set_sphere(spheres.roots, spheres.count++, rays[i], object);
+        if (spheres.count == PairRoots::kCount) finish(spheres, &PairRootStage::find_spheres);
     }
     finish(triangles, &PairRootStage::find_triangles);
     finish(spheres, &PairRootStage::find_spheres);

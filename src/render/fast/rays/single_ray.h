@@ -61,7 +61,7 @@ class SingleRays {
     void answer(std::span<const Ray> rays, const Slot* found, RayAnswer* answers) const;
 
   private:
-    // Where the triangles of an object are.
+    // Where the triangles of an object are. Of an object without any nothing is asked.
     struct MeshPlace {
         const Point3* positions;
         const IndexTriple* triangles;
@@ -80,7 +80,12 @@ class SingleRays {
     std::optional<Nearest> exactly_nearest_of(const Ray& ray, std::span<const Slot> slots) const;
     // As a function of its own g++ takes it for one without effects, and leaves it out.
     [[gnu::always_inline]] void prefetch(std::span<const Slot> found) const;
-    void set_pair(PairRoots& roots, std::size_t i, const Ray& ray, Slot slot) const;
+    void set_triangle(PairRoots& roots, std::size_t i, const Ray& ray,
+                      const PrimitiveSource& source) const;
+    void set_sphere(PairRoots& roots, std::size_t i, const Ray& ray, const Object& object) const;
+    const Object& object_of(const PrimitiveSource& source) const {
+        return scene_.scene().objects[source.object];
+    }
 
     const FastScene& scene_;
     Kernel kernel_;

@@ -13,7 +13,7 @@
 #include "fast/rays/wide_octree.h"
 #include "fast/simd/lanes.h"
 
-// One ray against 8 primitives of a leaf. The ray is seen from the point where it enters the
+// One ray against 8 or 16 primitives of a leaf. The ray is seen from the point where it enters the
 // leaf's box, in units of the leaf's grid on each axis, so that all numbers are small whatever the
 // distance, and flat leaves keep their digits.
 //
@@ -25,27 +25,22 @@
 HWY_BEFORE_NAMESPACE();
 namespace nuvo::HWY_NAMESPACE {
 
-using LeafFloats = Lanes<float, kLeafLanes>;
-using LeafMask = LaneMask<float, kLeafLanes>;
-using LeafInts = Lanes<std::int32_t, kLeafLanes>;
-
 inline constexpr float kReach = 0x1p16F + 0x1p14F;
 inline constexpr float kCorner = 0.5625F;
 static_assert(kCornerRounding + 0x1p-6 + roundings(4) * kReach < kCorner);
 
-/// What is known of 8 primitives: [low, high] bounds the hit's parameter where it is met.
+/// What is known of N primitives: [low, high] bounds the hit's parameter where it is met.
+template <std::size_t N>
 struct LeafHits {
-    LeafMask sure;
-    LeafMask open;  ///< neither surely met nor surely missed
-    LeafFloats low;
-    LeafFloats high;
-
-    static HWY_INLINE LeafHits none() {
-        return {LeafMask::from_bits(0), LeafMask::from_bits(0), LeafFloats(0.0F), LeafFloats(0.0F)};
-    }
+    LaneMask<float, N> sure;
+    LaneMask<float, N> open;  ///< neither surely met nor surely missed
+    Lanes<float, N> low;
+    Lanes<float, N> high;
 };
 
+template <std::size_t N>
 struct LeafVector {
+    using LeafFloats = Lanes<float, N>;
     LeafFloats x, y, z;
     friend HWY_INLINE LeafVector operator-(const LeafVector& a, const LeafVector& b) {
         return {a.x - b.x, a.y - b.y, a.z - b.z};
@@ -63,15 +58,15 @@ struct LeafVector {
     friend HWY_INLINE LeafFloats sum(const LeafVector& a) { return abs(a.x) + abs(a.y) + abs(a.z); }
 };
 
-/// For exponents of normal numbers.
-HWY_INLINE double power_of_two(int exponent) {
-    constexpr int kBias = 1023;
-    constexpr int kPlace = 52;
-    return std::bit_cast<double>(static_cast<std::uint64_t>(kBias + exponent) << kPlace);
+/// Two to exponents of normal numbers.
+template <std::size_t N>
+HWY_INLINE Lanes<float, N> powers_of_two(const Lanes<std::int32_t, N>& exponents) {
+    return floats_of(shift_left<23>(exponents + Lanes<std::int32_t, N>(127)));
 }
-/// The first `count` lanes, or all.
+/// The first `count` of N lanes, or all.
+template <std::size_t N>
 HWY_INLINE std::uint32_t first_lanes(std::uint32_t count) {
-    return count < kLeafLanes ? (1U << count) - 1 : (1U << kLeafLanes) - 1;
+    return (1U << (count < N ? count : N)) - 1;
 }
 
 /// A ray at one leaf.
@@ -82,22 +77,25 @@ struct RayAtLeaf {
           square(rays.near_add[lane][3]),
           point_error(rays.far_add[lane][3]),
           entry(entry_at) {
-        // Four numbers each, so that the compiler makes vectors of them.
-        const float base[4] = {head.base[0], head.base[1], head.base[2], 0};
-        const std::int8_t exponent[4] = {head.exponent[0], head.exponent[1], head.exponent[2], 0};
-        for (int i = 0; i < 4; ++i) {
-            const double inverse = power_of_two(-exponent[i]);
-            const double p = rays.origin[lane][i] + static_cast<double>(entry) * rays.step[lane][i];
-            from[i] = static_cast<float>(p);
-            at[i] = static_cast<float>((p - static_cast<double>(base[i])) * inverse);
-            direction[i] = rays.direction[lane][i];
-            step[i] = direction[i] * static_cast<float>(inverse);
-        }
+        using Four = Lanes<float, 4>;
+        using FourDoubles = Lanes<double, 4>;
+        const Four inverse_unit = powers_of_two(-Lanes<std::int32_t, 4>::from_bytes(head.exponent));
+        const FourDoubles p =
+            FourDoubles::load(rays.origin[lane]) +
+            FourDoubles(static_cast<double>(entry)) * FourDoubles::load(rays.step[lane]);
+        floats_from(p).store(from);
+        floats_from((p - doubles_from(Four::load(head.base))) * doubles_from(inverse_unit))
+            .store(at);
+        const Four d = Four::load(rays.direction[lane]);
+        d.store(direction);
+        (d * inverse_unit).store(step);
         step_sum = (std::fabs(step[0]) + std::fabs(step[1]) + std::fabs(step[2])) * (1 + 0x1p-20F);
     }
     /// Bounds on s from `along`, known within `error`.
-    HWY_INLINE void set_interval(LeafHits& hits, const LeafFloats& along,
-                                 const LeafFloats& error) const {
+    template <std::size_t N>
+    HWY_INLINE void set_interval(LeafHits<N>& hits, const Lanes<float, N>& along,
+                                 const Lanes<float, N>& error) const {
+        using LeafFloats = Lanes<float, N>;
         // A sum, and the sums here: less than 4 roundings.
         const LeafFloats s = along + LeafFloats(entry);
         const LeafFloats slack =
@@ -117,17 +115,21 @@ struct RayAtLeaf {
     float entry;
 };
 
-/// 8 corners of the leaf's triangles, seen from the ray's point.
-HWY_INLINE LeafVector load_corner(const std::uint16_t* corners, std::size_t stride, int corner,
-                                  const RayAtLeaf& ray) {
+/// N corners of the leaf's triangles, seen from the ray's point.
+template <std::size_t N>
+HWY_INLINE LeafVector<N> load_corner(const std::uint16_t* corners, std::size_t stride, int corner,
+                                     const RayAtLeaf& ray) {
+    using LeafFloats = Lanes<float, N>;
     const std::uint16_t* const x = corners + static_cast<std::size_t>(3 * corner) * stride;
     return {LeafFloats::from_shorts(x) - LeafFloats(ray.at[0]),
             LeafFloats::from_shorts(x + stride) - LeafFloats(ray.at[1]),
             LeafFloats::from_shorts(x + 2 * stride) - LeafFloats(ray.at[2])};
 }
 
-/// Which of 8 slots of a leaf have a back that is invisible.
-HWY_INLINE LeafMask front_only(const Slot* slots) {
+/// Which of N slots of a leaf have a back that is invisible.
+template <std::size_t N>
+HWY_INLINE LaneMask<float, N> front_only(const Slot* slots) {
+    using LeafInts = Lanes<std::int32_t, N>;
     return mask_for<float>(LeafInts::load(reinterpret_cast<const std::int32_t*>(slots)) <
                            LeafInts(0));
 }
@@ -141,14 +143,17 @@ HWY_INLINE LeafMask front_only(const Slot* slots) {
 /// than k = 2 * 2.125 e (|e1| + |e2|) + 2 (2.125 e)^2 + 4 u |e1| |e2| < 9 e (L + e) for L =
 /// max(|e1|, |e2|), L <= M; d . n by k |d|_1 and n . a by k |a|_1 + e |n|_1, with three roundings
 /// more of the terms, which the ninth e covers (9 instead of 8.5; 4 u M^2 < 0.02 e M).
-HWY_INLINE LeafHits test_triangles(const RayAtLeaf& ray, const std::uint16_t* corners,
-                                   std::size_t stride, std::uint32_t count, const LeafMask& front,
-                                   float scale) {
-    const LeafVector a = load_corner(corners, stride, 0, ray);
-    const LeafVector b = load_corner(corners, stride, 1, ray);
-    const LeafVector c = load_corner(corners, stride, 2, ray);
-    const LeafVector d = {LeafFloats(ray.step[0]), LeafFloats(ray.step[1]),
-                          LeafFloats(ray.step[2])};
+template <std::size_t N>
+HWY_INLINE LeafHits<N> test_triangles(const RayAtLeaf& ray, const std::uint16_t* corners,
+                                      std::size_t stride, const LaneMask<float, N>& front,
+                                      float scale) {
+    using LeafFloats = Lanes<float, N>;
+    using LeafMask = LaneMask<float, N>;
+    const LeafVector a = load_corner<N>(corners, stride, 0, ray);
+    const LeafVector b = load_corner<N>(corners, stride, 1, ray);
+    const LeafVector c = load_corner<N>(corners, stride, 2, ray);
+    const LeafVector<N> d = {LeafFloats(ray.step[0]), LeafFloats(ray.step[1]),
+                             LeafFloats(ray.step[2])};
     const LeafVector dc = cross(d, c);
     const LeafFloats u = dot(b, dc);
     const LeafFloats v = -dot(a, dc);
@@ -160,9 +165,6 @@ HWY_INLINE LeafHits test_triangles(const RayAtLeaf& ray, const std::uint16_t* co
     const LeafFloats most = max(u, max(v, w));
     const LeafMask inside = (least > edge_error) | without(most < -edge_error, front);
     const LeafMask outside = (least < -edge_error) & ((most > edge_error) | front);
-    LeafHits hits = LeafHits::none();
-    if (((~outside).bits() & first_lanes(count)) == 0) return hits;
-
     const LeafVector e1 = b - a;
     const LeafVector e2 = c - a;
     const LeafVector n = cross(e1, e2);
@@ -181,6 +183,7 @@ HWY_INLINE LeafHits test_triangles(const RayAtLeaf& ray, const std::uint16_t* co
     const LeafFloats error = mul_add(abs(along), slope_error, height_error) * abs(inverse) *
                                  mul_add(share, LeafFloats(2.0F), LeafFloats(1 + roundings(16))) +
                              abs(along) * LeafFloats(roundings(4));
+    LeafHits<N> hits;
     ray.set_interval(hits, along, error);
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
     hits.low = select(crossing, hits.low, LeafFloats(-kInfinity));
@@ -196,20 +199,25 @@ HWY_INLINE LeafHits test_triangles(const RayAtLeaf& ray, const std::uint16_t* co
 /// f = p - c is off by e = 3 u (p and c, at most 1.01 each, and the difference) + 2 u |f|. What is
 /// left of it across d, l = f - (f.d / d.d) d, is off by e and 16 roundings of |f| <= 16 u |f|; l.l
 /// by 2 |l| that + that^2.
-HWY_INLINE LeafHits test_spheres(const RayAtLeaf& ray, const float* values, std::size_t stride,
-                                 std::uint32_t count, const LeafMask& front, float scale) {
+template <std::size_t N>
+HWY_INLINE LeafHits<N> test_spheres(const RayAtLeaf& ray, const float* values, std::size_t stride,
+                                    std::uint32_t count, const LaneMask<float, N>& front,
+                                    float scale) {
+    using LeafFloats = Lanes<float, N>;
+    using LeafMask = LaneMask<float, N>;
     // What stands behind a leaf is not to be taken for a float: it may be a slow, subnormal one.
-    const LeafMask present = LeafMask::from_bits(first_lanes(count));
-    const LeafVector f = {LeafFloats(ray.from[0]) - LeafFloats::load(values, present),
-                          LeafFloats(ray.from[1]) - LeafFloats::load(values + stride, present),
-                          LeafFloats(ray.from[2]) - LeafFloats::load(values + 2 * stride, present)};
+    const LeafMask present = LeafMask::from_bits(first_lanes<N>(count));
+    const LeafVector<N> f = {
+        LeafFloats(ray.from[0]) - LeafFloats::load(values, present),
+        LeafFloats(ray.from[1]) - LeafFloats::load(values + stride, present),
+        LeafFloats(ray.from[2]) - LeafFloats::load(values + 2 * stride, present)};
     const LeafFloats r = LeafFloats::load(values + 3 * stride, present);
-    const LeafVector d = {LeafFloats(ray.direction[0]), LeafFloats(ray.direction[1]),
-                          LeafFloats(ray.direction[2])};
+    const LeafVector<N> d = {LeafFloats(ray.direction[0]), LeafFloats(ray.direction[1]),
+                             LeafFloats(ray.direction[2])};
     const LeafFloats inverse(1 / ray.square);
     const LeafFloats middle = -dot(f, d) * inverse;
-    const LeafVector l = {mul_add(middle, d.x, f.x), mul_add(middle, d.y, f.y),
-                          mul_add(middle, d.z, f.z)};
+    const LeafVector<N> l = {mul_add(middle, d.x, f.x), mul_add(middle, d.y, f.y),
+                             mul_add(middle, d.z, f.z)};
     const LeafFloats across = dot(l, l);
     const LeafFloats depth = mul_add(r, r, -across);
     const LeafFloats error = mul_add(sum(f), LeafFloats(scale * roundings(32)),
@@ -219,13 +227,15 @@ HWY_INLINE LeafHits test_spheres(const RayAtLeaf& ray, const float* values, std:
                 mul_add(r, r, across) * LeafFloats(scale * roundings(16)));
     const LeafMask meets = depth > depth_error;
     const LeafMask misses = depth < -depth_error;
-    LeafHits hits = LeafHits::none();
-    if (!without(present, misses).any()) return hits;
     const LeafFloats half = sqrt(max(depth, LeafFloats(0.0F)) * inverse);
-    // sqrt(depth +- error) differs by less than error / sqrt(depth); |d| >= 1.
-    const LeafFloats half_error = select(
-        meets, depth_error / (half * LeafFloats(ray.square)) + half * LeafFloats(roundings(8)),
-        sqrt(depth_error + depth_error));
+    // sqrt(depth +- error) differs by less than error / sqrt(depth), and where it may not be met by
+    // less than sqrt(2 error); |d| >= 1.
+    const LeafFloats least(std::numeric_limits<float>::min());
+    const LeafFloats most_error = depth_error + depth_error;
+    const LeafFloats half_error =
+        select(meets, depth_error * inverse, most_error) *
+            above_inverse_sqrt(max(select(meets, depth * inverse, most_error), least)) +
+        half * LeafFloats(roundings(8));
     const LeafFloats slack =
         half_error + error +
         (abs(middle) + LeafFloats(ray.entry) + half) * LeafFloats(scale * roundings(8));
@@ -235,6 +245,7 @@ HWY_INLINE LeafHits test_spheres(const RayAtLeaf& ray, const float* values, std:
     const LeafMask near_ahead = near - slack > behind;
     const LeafMask near_behind = near + slack < behind;
     const LeafMask far_ahead = far - slack > behind;
+    LeafHits<N> hits;
     hits.low = select(near_behind, far - slack, near - slack);
     hits.high = select(near_ahead, near + slack, far + slack);
     hits.sure = meets & (near_ahead | without(near_behind & far_ahead, front));

@@ -82,7 +82,7 @@ class WideBuilder {
             distribute({0, kBehindLarge, kFirstShift + 3}, kWideLanes - voxels.size(), voxels);
         fill(0, voxels);
         // The widest load begins at the last word.
-        out_.leaves.resize(out_.leaves.size() + kLeafLanes, 0);
+        out_.leaves.resize(out_.leaves.size() + kMostLeafLanes, 0);
         out_.leaves.shrink_to_fit();
         out_.nodes.shrink_to_fit();
     }
@@ -150,7 +150,7 @@ class WideBuilder {
     // Primitives about as wide as the scene, if they are few, get leaves beside the root's voxels:
     // tests that most rays need, once instead of at each leaf on their ways.
     void set_large_apart(std::vector<Inner>& lanes) {
-        constexpr std::size_t kFew = 2 * kLeafLanes;
+        constexpr std::size_t kFew = kMostLeafLanes;
         const float wide = max_norm(octree_.bounds.widths()) / 2;
         std::vector<Slot> large;
         for (Slot slot = 0; slot < scene_.sphere_end() && large.size() <= kFew; ++slot)

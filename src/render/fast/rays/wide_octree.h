@@ -16,7 +16,9 @@
 namespace nuvo {
 
 inline constexpr std::size_t kWideLanes = 16;  ///< of a node
-inline constexpr std::size_t kLeafLanes = 8;   ///< few leaves would fill more
+/// A leaf's primitives are tested by so many at once, or twice as many where it holds more.
+inline constexpr std::size_t kLeafLanes = 8;
+inline constexpr std::size_t kMostLeafLanes = 2 * kLeafLanes;
 
 /// Voxels side by side; behind the last one boxes that no ray meets (low +inf, high -inf).
 struct alignas(64) WideNode {
@@ -36,9 +38,8 @@ struct alignas(64) WideNode {
 /// `others` are to be tested exactly. Triangles much larger than these follow behind, with a head
 /// and a grid of their own.
 struct WideLeafHead {
-    float base[3];
-    std::int8_t exponent[3];  ///< unit = 2^exponent
-    std::int8_t finest;       ///< the least of these
+    float base[4];            ///< the fourth: the finest unit
+    std::int8_t exponent[4];  ///< unit = 2^exponent; the fourth: 0
     std::uint8_t triangles;
     std::uint8_t spheres;
     /// kMany: more than fit into a byte, in the word behind the head.
@@ -49,7 +50,7 @@ struct WideLeafHead {
 };
 inline constexpr std::uint32_t kFrontOnly = 1U << 31;
 inline constexpr std::size_t kLeafHeadWords = sizeof(WideLeafHead) / sizeof(std::uint32_t);
-static_assert(kLeafHeadWords == 5);
+static_assert(kLeafHeadWords == 6);
 
 /// How far a copied corner lies from base + unit * number, in units: rounded to nearest, plus what
 /// three double roundings of local coordinates can add while the unit is at least 2^-38.

@@ -117,6 +117,15 @@ struct Lanes : LaneShape<T, N> {
         }
         return v;
     }
+    /// From numbers of 8 bits.
+    static HWY_INLINE Lanes
+    from_bytes(const std::int8_t* from) requires(std::is_same_v<T, std::int32_t>) {
+        Lanes v;
+        for (std::size_t i = 0; i < Shape::kParts; ++i)
+            v.part[i] = hn::PromoteTo(Tag(), hn::LoadU(hn::FixedTag<std::int8_t, Shape::kPart>(),
+                                                       from + i * Shape::kPart));
+        return v;
+    }
     /// From 16-bit numbers.
     static HWY_INLINE Lanes
     from_shorts(const std::uint16_t* from) requires(std::is_same_v<T, float>) {
@@ -311,31 +320,39 @@ HWY_INLINE auto to_floats(Tag tag, const Vector& v) {
     return hn::DemoteTo(tag, v);
 #endif
 }
-HWY_INLINE Floats floats_from(const Doubles& v) {
-    Floats out;
-#if HWY_TARGET == HWY_SCALAR
-    for (std::size_t i = 0; i < Floats::Shape::kParts; ++i)
-        out.part[i] = to_floats(Floats::Tag(), v.part[i]);
-#else
-    const hn::Half<Floats::Tag> half;
-    for (std::size_t i = 0; i < Floats::Shape::kParts; ++i)
-        out.part[i] = hn::Combine(Floats::Tag(), to_floats(half, v.part[2 * i + 1]),
-                                  to_floats(half, v.part[2 * i]));
+template <std::size_t N>
+HWY_INLINE Lanes<float, N> floats_from(const Lanes<double, N>& v) {
+    using Shape = LaneShape<float, N>;
+    Lanes<float, N> out;
+    for (std::size_t i = 0; i < Shape::kParts; ++i) {
+        if constexpr (Shape::kParts == LaneShape<double, N>::kParts) {
+            out.part[i] = to_floats(typename Shape::Tag(), v.part[i]);
+#if HWY_TARGET != HWY_SCALAR
+        } else {
+            const hn::Half<typename Shape::Tag> half;
+            out.part[i] = hn::Combine(typename Shape::Tag(), to_floats(half, v.part[2 * i + 1]),
+                                      to_floats(half, v.part[2 * i]));
 #endif
+        }
+    }
     return out;
 }
-HWY_INLINE Doubles doubles_from(const Floats& v) {
-    Doubles out;
-#if HWY_TARGET == HWY_SCALAR
-    for (std::size_t i = 0; i < Floats::Shape::kParts; ++i)
-        out.part[i] = hn::PromoteTo(Doubles::Tag(), v.part[i]);
-#else
-    const hn::Half<Floats::Tag> half;
-    for (std::size_t i = 0; i < Floats::Shape::kParts; ++i) {
-        out.part[2 * i] = hn::PromoteTo(Doubles::Tag(), hn::LowerHalf(half, v.part[i]));
-        out.part[2 * i + 1] = hn::PromoteTo(Doubles::Tag(), hn::UpperHalf(half, v.part[i]));
-    }
+template <std::size_t N>
+HWY_INLINE Lanes<double, N> doubles_from(const Lanes<float, N>& v) {
+    using Shape = LaneShape<float, N>;
+    using Tag = typename LaneShape<double, N>::Tag;
+    Lanes<double, N> out;
+    for (std::size_t i = 0; i < Shape::kParts; ++i) {
+        if constexpr (Shape::kParts == LaneShape<double, N>::kParts) {
+            out.part[i] = hn::PromoteTo(Tag(), v.part[i]);
+#if HWY_TARGET != HWY_SCALAR
+        } else {
+            const hn::Half<typename Shape::Tag> half;
+            out.part[2 * i] = hn::PromoteTo(Tag(), hn::LowerHalf(half, v.part[i]));
+            out.part[2 * i + 1] = hn::PromoteTo(Tag(), hn::UpperHalf(half, v.part[i]));
 #endif
+        }
+    }
     return out;
 }
 
@@ -348,39 +365,45 @@ HWY_INLINE Ints integers_from(const Floats& v) {
 }
 
 /// At least 1 / sqrt(v), and at most 2^-9 more of it; v >= 0.
-HWY_INLINE Floats above_inverse_sqrt(Floats v) {
+template <std::size_t N>
+HWY_INLINE Lanes<float, N> above_inverse_sqrt(Lanes<float, N> v) {
+    const Lanes<float, N> slack(1 + 0x1p-10F);
 #if HWY_TARGET == HWY_SCALAR || HWY_TARGET == HWY_EMU128
-    return Floats(1 + 0x1p-10F) / sqrt(v);
+    return slack / sqrt(v);
 #else
-    for (std::size_t i = 0; i < Floats::Shape::kParts; ++i)
+    for (std::size_t i = 0; i < LaneShape<float, N>::kParts; ++i)
         v.part[i] = hn::ApproximateReciprocalSqrt(v.part[i]);
-    return v * Floats(1 + 0x1p-10F);  // the least accurate set is within 1.5 * 2^-12
+    return v * slack;  // the least accurate set is within 1.5 * 2^-12
 #endif
 }
 
 /// The bits of floats as integers, and back.
-HWY_INLINE Ints bits_of(const Floats& v) {
-    Ints out;
-    for (std::size_t i = 0; i < Floats::Shape::kParts; ++i)
-        out.part[i] = hn::BitCast(Ints::Tag(), v.part[i]);
+template <std::size_t N>
+HWY_INLINE Lanes<std::int32_t, N> bits_of(const Lanes<float, N>& v) {
+    using Shape = LaneShape<std::int32_t, N>;
+    Lanes<std::int32_t, N> out;
+    for (std::size_t i = 0; i < Shape::kParts; ++i)
+        out.part[i] = hn::BitCast(typename Shape::Tag(), v.part[i]);
     return out;
 }
-HWY_INLINE Floats floats_of(const Ints& v) {
-    Floats out;
-    for (std::size_t i = 0; i < Floats::Shape::kParts; ++i)
-        out.part[i] = hn::BitCast(Floats::Tag(), v.part[i]);
+template <std::size_t N>
+HWY_INLINE Lanes<float, N> floats_of(const Lanes<std::int32_t, N>& v) {
+    using Shape = LaneShape<float, N>;
+    Lanes<float, N> out;
+    for (std::size_t i = 0; i < Shape::kParts; ++i)
+        out.part[i] = hn::BitCast(typename Shape::Tag(), v.part[i]);
     return out;
 }
-template <int kBits>
-HWY_INLINE Ints shift_left(Ints v) {
-    for (std::size_t i = 0; i < Ints::Shape::kParts; ++i)
+template <int kBits, std::size_t N>
+HWY_INLINE Lanes<std::int32_t, N> shift_left(Lanes<std::int32_t, N> v) {
+    for (std::size_t i = 0; i < LaneShape<std::int32_t, N>::kParts; ++i)
         v.part[i] = hn::ShiftLeft<kBits>(v.part[i]);
     return v;
 }
 /// With copies of the sign.
-template <int kBits>
-HWY_INLINE Ints shift_right(Ints v) {
-    for (std::size_t i = 0; i < Ints::Shape::kParts; ++i)
+template <int kBits, std::size_t N>
+HWY_INLINE Lanes<std::int32_t, N> shift_right(Lanes<std::int32_t, N> v) {
+    for (std::size_t i = 0; i < LaneShape<std::int32_t, N>::kParts; ++i)
         v.part[i] = hn::ShiftRight<kBits>(v.part[i]);
     return v;
 }
