@@ -225,10 +225,10 @@ TEST(ColorBounds, HoldBytesAtTies) {
             scene.lights.resize(static_cast<std::size_t>(1 + round % 3));
             const Tables tables(scene, isa);
             const auto tile = std::make_unique<Tile>();
-            for (int lane = 0; lane < kTileLanes; ++lane) {
-                tile->slot[lane] = 0;
-                tile->near_low[lane] = tile->near_high[lane] = 1;
-            }
+            const std::vector<Slot> slots(kTileLanes, 0);
+            const std::vector<float> near(kTileLanes, 1);
+            tile->slot = slots.data();
+            tile->near_low = tile->near_high = near.data();
             for (int b = 0; b < kTileBlocks; ++b) tile->hit[b] = tile->inside[b] = 0xffff;
             const auto scratch = std::make_unique<ShadingScratch>();
             kernels.surface(tables.shading, *tile, *scratch);

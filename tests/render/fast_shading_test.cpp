@@ -58,7 +58,7 @@ class ShadedPicture {
             for (macro->x = 0; macro->x < size_.width; macro->x += kMacroSide) {
                 primary.trace(job, *macro, quadrics.get());
                 for (int i = 0; i < MacroTile::kTiles; ++i) {
-                    macro->copy(i, quadrics.get(), *tile);
+                    macro->show(i, quadrics.get(), *tile);
                     if (tile->x >= size_.width || tile->y >= size_.height) continue;
                     stage.surface(*tile);
                     for (std::size_t light = 0; light < scene_.lights.size(); ++light)

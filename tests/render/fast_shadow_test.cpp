@@ -93,9 +93,10 @@ class ShadowPicture {
         for (Slot slot = 0; slot < fast_.slot_end(); ++slot) slots[fast_.id(slot)] = slot;
         tile.x = x;
         tile.y = y;
+        tile.slot = hits_;
         for (int lane = 0; lane < kTileLanes; ++lane) {
             const bool inside = x + lane_x(lane) < size_.width && y + lane_y(lane) < size_.height;
-            tile.slot[lane] = kNoSlot;
+            hits_[lane] = kNoSlot;
             tile.point_error[lane] = std::numeric_limits<float>::quiet_NaN();
             for (auto& axis : tile.point) axis[lane] = std::numeric_limits<float>::quiet_NaN();
             if (!inside || !fact(tile, lane).primitive) continue;
@@ -106,7 +107,7 @@ class ShadowPicture {
                 kernel_.prepare(camera_.rays.ray(x + lane_x(lane), y + lane_y(lane)));
             const auto hit = kernel_.hit_of(ray, id);
             surfaces[lane] = kernel_.surface(ray, *hit, object);
-            tile.slot[lane] = slots[id];
+            hits_[lane] = slots[id];
             // A float point some units off, as the surface stage may make it.
             const Point3 local = fast_.frame().local(surfaces[lane]->point);
             const double error = 4 * kFloatRoundoff * (max_norm(camera_.origin) + 1);
@@ -123,6 +124,7 @@ class ShadowPicture {
     FastScene fast_;
     CameraRays camera_;
     Bounds3 triangles_;
+    Slot hits_[kTileLanes];  // of the tile in use
     ExactFallback fallback_;
     ExactKernelOf<SceneStore> kernel_;
     std::vector<PixelFacts> facts_;

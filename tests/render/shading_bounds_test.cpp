@@ -68,7 +68,7 @@ class Shown {
         const auto tile = std::make_unique<Tile>();
         primary.trace(job, *macro, quadrics.get());
         for (int i = 0; i < MacroTile::kTiles; ++i) {
-            macro->copy(i, quadrics.get(), *tile);
+            macro->show(i, quadrics.get(), *tile);
             if (tile->x < kPicture.width && tile->y < kPicture.height) use(*tile);
         }
     }

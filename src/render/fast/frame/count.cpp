@@ -47,7 +47,7 @@ RayCounts count_rays(const FastScene& scene, InstructionSet isa, Resolution reso
         for (macro->x = 0; macro->x < resolution.width; macro->x += kMacroSide) {
             primary.trace(*job, *macro, quadrics.get());
             for (int i = 0; i < MacroTile::kTiles; ++i) {
-                macro->copy(i, nullptr, tile);
+                macro->show(i, nullptr, tile);
                 counts.shadow_rays += shadow_rays(scene, fallback, tile);
             }
         }

@@ -103,7 +103,7 @@ struct Frame::Tables {
             if (!surfaces->triangles.known.has_all())
                 fill_tables(scene, options.threads, *surfaces);
         } else {
-            shadow = &kept.keep_shadows([&] {
+            shadow = &kept.keep_shadows(scene.scene().camera, resolution, [&] {
                 ShadowTables all(scene, options.isa, options.threads);
                 fill_tables(scene, options.threads, all, *camera, *surfaces);
                 return all;
@@ -208,7 +208,7 @@ class Frame::Worker {
         const Resolution size = tables_.rays.resolution;
         for (int i = 0; i < MacroTile::kTiles; ++i) {
             if (macro.tile_x(i) >= size.width || macro.tile_y(i) >= size.height) continue;
-            macro.copy(i, quadrics, tile_);
+            macro.show(i, quadrics, tile_);
             use();
         }
     }
@@ -327,19 +327,24 @@ void Frame::find_hits() {
 void Frame::make_tables_of_hits() {
     const TriangleSet& seen = *tables_->hits.seen;
     tables_->surfaces->fill(seen, options_.threads);
+    const Camera& camera = scene_.scene().camera;
+    const Resolution size = tables_->rays.resolution;
     tables_->shadow = kept_.shadows();
-    if (tables_->shadow != nullptr && serves(*tables_->shadow)) {
-        tables_->new_points = true;
-        return;
+    const bool is_first = tables_->shadow == nullptr;
+    if (!is_first && listing_ != ShadowListing::kWanted) {
+        if (kept_.serve_all_of(camera, size)) return;
+        if (serves(*tables_->shadow)) {
+            tables_->new_points = true;
+            return;
+        }
     }
-    const bool has_moved = tables_->shadow != nullptr;  // the camera
     // Where most is seen most may hide something.
     constexpr std::size_t kMostSeen = 4;
     const bool few =
         listing_ != ShadowListing::kMeasured || seen.size() * kMostSeen <= scene_.slot_end();
-    tables_->shadow = &kept_.keep_shadows([&] {
+    tables_->shadow = &kept_.keep_shadows(camera, size, [&] {
         if (few)
-            return ShadowTables(scene_, options_.isa, options_.threads, find_wanted(has_moved));
+            return ShadowTables(scene_, options_.isa, options_.threads, find_wanted(!is_first));
         ShadowTables all(scene_, options_.isa, options_.threads);
         fill_tables(scene_, options_.threads, all);
         return all;
@@ -349,7 +354,6 @@ void Frame::make_tables_of_hits() {
 // Whether kept tables list enough for all but a few points, as far as some tiles tell; the few walk
 // the octree.
 bool Frame::serves(const ShadowTables& kept) {
-    if (listing_ == ShadowListing::kWanted) return false;
     if (listing_ == ShadowListing::kKept || kept.complete()) return true;
     constexpr std::size_t kStep = 16;   // one of so many tiles is asked
     constexpr std::size_t kMost = 128;  // points to one that is not served

@@ -27,10 +27,16 @@ class KeptTables {
     }
     /// Null: there are none for these lights.
     const ShadowTables* shadows() const { return shadows_ ? &*shadows_ : nullptr; }
+    /// Whether they were made for the very points that this camera shows.
+    bool serve_all_of(const Camera& camera, Resolution resolution) const {
+        return shadows_ && camera_ == camera && resolution_ == resolution;
+    }
     /// Frees the shadow tables that are kept, and keeps what `make` returns instead.
     template <typename Make>
-    const ShadowTables& keep_shadows(Make&& make) {
+    const ShadowTables& keep_shadows(const Camera& camera, Resolution resolution, Make&& make) {
         shadows_.reset();
+        camera_ = camera;
+        resolution_ = resolution;
         return shadows_.emplace(make());
     }
     /// For one thread at a time.
@@ -41,6 +47,8 @@ class KeptTables {
   private:
     std::vector<Light> lights_;
     std::optional<ShadowTables> shadows_;
+    Camera camera_;  // of the picture that they were made for
+    Resolution resolution_;
     std::vector<PairShadows> pairs_;  // by thread
 };
 

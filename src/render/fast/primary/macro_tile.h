@@ -1,7 +1,7 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
-#include <cstring>
 
 #include "fast/tile/tile.h"
 
@@ -24,9 +24,6 @@ struct alignas(64) MacroTile {
     static constexpr int kBlocks = kTiles * kTileBlocks;
     static constexpr int kLanes = kTiles * kTileLanes;
 
-    int x = 0;  ///< the first pixel
-    int y = 0;
-
     // Each as in Tile.
     std::uint16_t inside[kBlocks];
     std::uint16_t hit[kBlocks];
@@ -34,28 +31,28 @@ struct alignas(64) MacroTile {
     float near_low[kLanes];
     float near_high[kLanes];
 
+    int x = 0;  ///< the first pixel
+    int y = 0;
+
     int tile_x(int tile) const { return x + tile % kMacroTiles * kTileSide; }
     int tile_y(int tile) const { return y + tile / kMacroTiles * kTileSide; }
 
-    /// Copies one of its tiles; `quadrics`: null if the scene has none.
-    void copy(int tile, const MacroQuadrics* quadrics, Tile& out) const {
+    /// Lets `out` be one of its tiles, of which it holds the hits as long as both are in use;
+    /// `quadrics`: null if the scene has none.
+    void show(int tile, const MacroQuadrics* quadrics, Tile& out) const {
+        const int block = tile * kTileBlocks;
+        const int lane = tile * kTileLanes;
         out.x = tile_x(tile);
         out.y = tile_y(tile);
-        copy_part(inside, tile, out.inside);
-        copy_part(hit, tile, out.hit);
-        copy_part(slot, tile, out.slot);
-        copy_part(near_low, tile, out.near_low);
-        copy_part(near_high, tile, out.near_high);
+        std::copy_n(inside + block, kTileBlocks, out.inside);
+        std::copy_n(hit + block, kTileBlocks, out.hit);
+        out.slot = slot + lane;
+        out.near_low = near_low + lane;
+        out.near_high = near_high + lane;
         if (quadrics == nullptr) return;
         for (int axis = 0; axis < 3; ++axis)
-            copy_part(quadrics->normal[axis], tile, out.quadric_normal[axis]);
-        copy_part(quadrics->error, tile, out.quadric_error);
-    }
-
-  private:
-    template <typename T, std::size_t N>
-    static void copy_part(const T* from, int tile, T (&to)[N]) {
-        std::memcpy(to, from + static_cast<std::size_t>(tile) * N, sizeof to);
+            out.quadric_normal[axis] = quadrics->normal[axis] + lane;
+        out.quadric_error = quadrics->error + lane;
     }
 };
 

@@ -30,8 +30,8 @@ void ShadingStage::add(std::size_t light, const TileMask& lit) {
 
 int ShadingStage::finish(const Tile& tile, const ExactFallback& fallback, Image& image) {
     TileMask uncertain;
-    kernels_.finish(*tables_, tile, scratch_, image, uncertain);
-    return redo_exactly_ ? redo(tile, uncertain, fallback, image) : 0;
+    const bool any = kernels_.finish(*tables_, tile, scratch_, image, uncertain);
+    return any && redo_exactly_ ? redo(tile, uncertain, fallback, image) : 0;
 }
 
 int ShadingStage::redo(const Tile& tile, const TileMask& uncertain, const ExactFallback& fallback,

@@ -44,7 +44,8 @@ struct ShadingKernels {
     void (*sample)(const ShadingTables&, const Tile&, std::size_t light, ShadingScratch&,
                    TileMask& wanted);
     void (*add)(const ShadingTables&, std::size_t light, const TileMask& lit, ShadingScratch&);
-    void (*finish)(const ShadingTables&, const Tile&, const ShadingScratch&, Image&,
+    /// False: nothing is uncertain.
+    bool (*finish)(const ShadingTables&, const Tile&, const ShadingScratch&, Image&,
                    TileMask& uncertain);
 };
 void pick_surface_kernel(InstructionSet isa, ShadingKernels& kernels);

@@ -24,7 +24,9 @@ class TileFinisher {
     TileFinisher(const ShadingTables& tables, const Tile& tile, const ShadingScratch& scratch)
         : tables_(tables), tile_(tile), scratch_(scratch) {}
 
-    void run(Image& image, TileMask& uncertain) {
+    /// False: all lanes are certain.
+    bool run(Image& image, TileMask& uncertain) {
+        std::uint32_t any = 0;
         const bool in_range = tables_.background.in_range && tables_.sound;
         for (int b = 0; b < kTileBlocks; ++b) {
             const std::uint32_t inside = tile_.inside[b];
@@ -34,7 +36,9 @@ class TileFinisher {
             if (hit == 0 && in_range) {
                 const PixelColors pixels =
                     background_colors(tables_, BlockDirections(tables_, tile_, b));
-                uncertain[b] = static_cast<std::uint16_t>(quantize<false>(b, pixels) & inside);
+                const std::uint32_t open = quantize<false>(b, pixels) & inside;
+                uncertain[b] = static_cast<std::uint16_t>(open);
+                any |= open;
                 continue;
             }
             PixelColors pixels;
@@ -44,10 +48,13 @@ class TileFinisher {
                     background_colors(tables_, BlockDirections(tables_, tile_, b));
                 pixels = hit == 0 ? behind : merged(RayMask::from_bits(hit), pixels, behind);
             }
-            uncertain[b] = static_cast<std::uint16_t>(quantize<true>(b, pixels) & inside);
-            if (!tables_.sound) uncertain[b] = static_cast<std::uint16_t>(inside);
+            const std::uint32_t open =
+                (quantize<true>(b, pixels) | (tables_.sound ? 0U : ~0U)) & inside;
+            uncertain[b] = static_cast<std::uint16_t>(open);
+            any |= open;
         }
         write(image);
+        return any != 0;
     }
 
   private:
@@ -247,9 +254,9 @@ class TileFinisher {
     alignas(64) std::uint8_t bytes_[kTileBlocks * kBlockBytes];
 };
 
-void finish_tile_in(const ShadingTables& tables, const Tile& tile, const ShadingScratch& scratch,
+bool finish_tile_in(const ShadingTables& tables, const Tile& tile, const ShadingScratch& scratch,
                     Image& image, TileMask& uncertain) {
-    TileFinisher(tables, tile, scratch).run(image, uncertain);
+    return TileFinisher(tables, tile, scratch).run(image, uncertain);
 }
 
 }  // namespace nuvo::HWY_NAMESPACE

@@ -31,12 +31,13 @@ struct alignas(64) Tile {
     int y = 0;
     TileMask inside;  ///< lanes that are pixels of the picture
 
-    // Primary rays. The nearest primitive is decided exactly; bounds on 1 / t of its hit.
-    Slot slot[kTileLanes];  ///< kNoSlot: the background
-    float near_low[kTileLanes];
-    float near_high[kTileLanes];
-    float quadric_normal[3][kTileLanes];  ///< of ellipsoids: unit, outwards
-    float quadric_error[kTileLanes];      ///< bounds the error of quadric_normal on each axis
+    // Primary rays: kTileLanes numbers each, of the macro tile. The nearest primitive is decided
+    // exactly; bounds on 1 / t of its hit.
+    const Slot* slot;  ///< kNoSlot: the background
+    const float* near_low;
+    const float* near_high;
+    const float* quadric_normal[3];  ///< of ellipsoids: unit, outwards
+    const float* quadric_error;      ///< bounds the error of quadric_normal on each axis
     TileMask hit;
 
     // Surfaces: of lanes that hit something lit.
