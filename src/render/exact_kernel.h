@@ -71,6 +71,8 @@ class ExactKernelOf {
     const PrimitiveSource& source(PrimitiveId id) const { return store_.source(id); }
     std::size_t memory_bytes() const { return store_.memory_bytes(); }
     const StageCounts& stage_counts() const { return counts_; }
+    /// For kernels of other pictures to go on with: what they hold depends on no scene or camera.
+    StageCounts& stage_counts() { return counts_; }
 
     PreparedRay prepare(const Ray& ray) const { return ExactRay(ray, triangles_); }
     Ray walk_ray(const ExactRay& ray) const { return {ray.origin(), ray.direction()}; }

@@ -66,6 +66,7 @@ class ShadedPicture {
                     result.redone += stage.finish(*tile, fallback_, image);
                 }
             }
+        stage.decide_open(fallback_, image);
         for (int y = 0; y < size_.height; ++y)
             for (int x = 0; x < size_.width; ++x)
                 if (!(image.at(x, y) == expected_.at(x, y))) ++result.wrong;

@@ -144,18 +144,20 @@ struct Frame::Tables {
 class Frame::Worker {
   public:
     /// `clocked`: spent() is asked for.
-    Worker(SerialTree& serial, Tables& tables, PairShadows& pairs, const FastOptions& options,
-           bool clocked)
+    Worker(SerialTree& serial, Tables& tables, KeptTables::OfThread& kept,
+           const FastOptions& options, bool clocked)
         : serial_(serial),
           scene_(serial.scene()),
           tables_(tables),
-          pairs_(pairs),
+          kept_(kept),
           options_(options),
           clocked_(clocked),
           fallback_(scene_, tables.rays),
           job_{scene_, tables.rays, *tables.camera, fallback_, options.redo_exactly, {}},
           primary_(options.isa),
-          shading_(*tables.shading) {}
+          shading_(*tables.shading) {
+        std::swap(fallback_.stage_counts(), kept_.stages);
+    }
 
     /// Finds what a macro tile shows, unless the serial tracer has taken over.
     void find(TilePlace place, MacroTile& macro, MacroQuadrics* quadrics) {
@@ -189,7 +191,7 @@ class Frame::Worker {
             return trace_serially(place.column * kMacroSide, place.row * kMacroSide, kMacroSide,
                                   image);
         if (!shadow_)
-            shadow_.emplace(*tables_.shadow, pairs_, options_.isa, options_.redo_exactly,
+            shadow_.emplace(*tables_.shadow, kept_.pairs, options_.isa, options_.redo_exactly,
                             tables_.new_points);
         if (tables_.two_passes) {
             shade(tables_.hits.tiles[i], tables_.hits.quadrics_of(i), image);
@@ -198,6 +200,14 @@ class Frame::Worker {
         const bool quadrics = scene_.slot_end() != scene_.triangle_end();
         find(place, macro_, &quadrics_);
         shade(macro_, quadrics ? &quadrics_ : nullptr, image);
+    }
+
+    /// After the last tile.
+    void finish(Image& image) {
+        StageClock clock(clocked_);
+        shading_.decide_open(fallback_, image);
+        std::swap(fallback_.stage_counts(), kept_.stages);
+        clock.add_to(spent_.shading);
     }
 
     const FastTimes& spent() const { return spent_; }
@@ -256,7 +266,7 @@ class Frame::Worker {
     SerialTree& serial_;
     const FastScene& scene_;
     Tables& tables_;
-    PairShadows& pairs_;
+    KeptTables::OfThread& kept_;
     const FastOptions& options_;
     bool clocked_;
     std::uint64_t found_ = 0;             // pixels
@@ -306,7 +316,7 @@ void Frame::for_each_tile(Work&& work) {
     for_each_index(options_.threads, tables_->tiles.size(), [&](std::size_t i, int thread) {
         std::unique_ptr<Worker>& worker = workers_[static_cast<std::size_t>(thread)];
         if (!worker)
-            worker = std::make_unique<Worker>(serial_, *tables_, kept_.pairs(thread), options_,
+            worker = std::make_unique<Worker>(serial_, *tables_, kept_.of_thread(thread), options_,
                                               times_ != nullptr);
         work(*worker, i);
     });
@@ -407,9 +417,10 @@ Image Frame::render() {
         worker.shade(i, image);
         add(options_.progress, pixels_of(tables_->tiles[i], size));
     });
-    if (times_ == nullptr) return image;
     for (const std::unique_ptr<Worker>& worker : workers_) {
         if (!worker) continue;
+        worker->finish(image);
+        if (times_ == nullptr) continue;
         times_->primary += worker->spent().primary;
         times_->shadow += worker->spent().shadow;
         times_->shading += worker->spent().shading;

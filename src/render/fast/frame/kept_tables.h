@@ -11,19 +11,19 @@ namespace nuvo {
 
 /// What one picture leaves to the next ones of its scene while the lights stay where they are: the
 /// shadow tables, which do not depend on the camera if they are of all items and else serve points
-/// for which they are known to list enough; what each thread knows of pairs of triangles; and what
-/// shading knows of triangles.
+/// for which they are known to list enough; what each thread knows of pairs of triangles and of
+/// exact signs; and what shading knows of triangles.
 class KeptTables {
   public:
     /// Before a picture. Forgets what was kept for other lights.
     void begin(const FastScene& scene, int threads) {
         if (lights_ != scene.scene().lights) {
             shadows_.reset();
-            pairs_.clear();
+            threads_.clear();
             shading.reset();
             lights_ = scene.scene().lights;
         }
-        while (pairs_.size() < static_cast<std::size_t>(threads)) pairs_.emplace_back(scene);
+        while (threads_.size() < static_cast<std::size_t>(threads)) threads_.emplace_back(scene);
     }
     /// Null: there are none for these lights.
     const ShadowTables* shadows() const { return shadows_ ? &*shadows_ : nullptr; }
@@ -39,8 +39,13 @@ class KeptTables {
         resolution_ = resolution;
         return shadows_.emplace(make());
     }
-    /// For one thread at a time.
-    PairShadows& pairs(int thread) { return pairs_[static_cast<std::size_t>(thread)]; }
+    /// What one thread knows.
+    struct OfThread {
+        explicit OfThread(const FastScene& scene) : pairs(scene) {}
+        PairShadows pairs;
+        StageCounts stages;  ///< taken by the thread's fallback, and given back
+    };
+    OfThread& of_thread(int thread) { return threads_[static_cast<std::size_t>(thread)]; }
 
     std::optional<ShadingTriangles> shading;  ///< taken by a picture, and given back
 
@@ -49,7 +54,7 @@ class KeptTables {
     std::optional<ShadowTables> shadows_;
     Camera camera_;  // of the picture that they were made for
     Resolution resolution_;
-    std::vector<PairShadows> pairs_;  // by thread
+    std::vector<OfThread> threads_;
 };
 
 }  // namespace nuvo

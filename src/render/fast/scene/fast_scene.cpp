@@ -159,6 +159,33 @@ void FastScene::order_slots(const Bounds3& box) {
     if (document_order) ids_ = {};
 }
 
+// Each step asks for memory by what the one before has fetched: for all slots a step before the
+// next.
+void FastScene::prefetch(std::span<const Slot> slots) const {
+    if (!ids_.empty())
+        for (const Slot slot : slots) __builtin_prefetch(&ids_[slot]);
+    for (const Slot slot : slots) __builtin_prefetch(&source(slot));
+    for (const Slot slot : slots) {
+        const Object* const object = &scene_.objects[source(slot).object];
+        __builtin_prefetch(object);
+        __builtin_prefetch(reinterpret_cast<const char*>(object + 1) - 1);
+    }
+    const auto for_each_triangle = [&](auto&& use) {
+        for (const Slot slot : slots) {
+            if (slot >= triangle_end_) continue;
+            const PrimitiveSource& from = source(slot);
+            use(*std::get_if<TriangleMesh>(&scene_.objects[from.object].shape), from.triangle);
+        }
+    };
+    for_each_triangle([](const TriangleMesh& mesh, std::uint32_t triangle) {
+        __builtin_prefetch(&mesh.triangles[triangle]);
+    });
+    for_each_triangle([](const TriangleMesh& mesh, std::uint32_t triangle) {
+        for (const std::uint32_t corner : mesh.triangles[triangle])
+            __builtin_prefetch(&mesh.positions[corner]);
+    });
+}
+
 void FastScene::map_ellipsoids(int threads) {
     balls_.resize(slot_end_ - sphere_end_);
     for_each_part(threads, balls_.size(), [&](std::size_t begin, std::size_t end) {

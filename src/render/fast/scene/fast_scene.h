@@ -75,6 +75,8 @@ class FastScene {
         const PrimitiveSource& from = source(slot);
         return std::get<TriangleMesh>(scene_.objects[from.object].shape).triangle(from.triangle);
     }
+    /// What tells these primitives, and how triangles lie, is on its way from memory.
+    void prefetch(std::span<const Slot> slots) const;
     /// All spheres and ellipsoids in document order, in which the scene is read fastest.
     QuadricSpan quadrics() const { return quadrics_; }
     /// One a few places after one of quadrics(), if there is any; its object is prefetched.

@@ -70,22 +70,8 @@ void TriangleChunk::fetch(const FastScene& scene, const BigVector<Slot>& list, S
     slots = &list;
     first = first_place;
     last = last_place;
-    // Far apart in memory, each behind the one before.
-    for (Slot i = first; i < last; ++i) __builtin_prefetch(&scene.source(list[i]));
-    const auto each = [&](auto&& use) {
-        for (Slot i = first; i < last; ++i) {
-            const PrimitiveSource& source = scene.source(list[i]);
-            use(*std::get_if<TriangleMesh>(&scene.scene().objects[source.object].shape),
-                source.triangle);
-        }
-    };
-    each([](const TriangleMesh& mesh, std::uint32_t triangle) {
-        __builtin_prefetch(&mesh.triangles[triangle]);
-    });
-    each([](const TriangleMesh& mesh, std::uint32_t triangle) {
-        for (const std::uint32_t corner : mesh.triangles[triangle])
-            __builtin_prefetch(&mesh.positions[corner]);
-    });
+    // Far apart in memory.
+    scene.prefetch({list.data() + first, last - first});
     gather(scene, last, [&](Slot place) { return list[place]; });
 }
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <vector>
 
+#include "fast/shading/open_pixels.h"
 #include "fast/shading/shading_tables.h"
 #include "fast/tile/exact_fallback.h"
 #include "fast/tile/tile.h"
@@ -55,7 +56,8 @@ void pick_finish_kernel(InstructionSet isa, ShadingKernels& kernels);
 /// Turns the hits of a tile into bytes of the picture, light by light:
 ///   surface(tile);
 ///   for each light: sample(tile, light, wanted), find which wanted lanes are unblocked, add(...);
-///   finish(tile, fallback, image).
+///   finish(tile, fallback, image);
+/// after the last tile decide_open(fallback, image).
 /// For one thread; copies share the tables.
 class ShadingStage {
   public:
@@ -75,19 +77,19 @@ class ShadingStage {
     /// Adds the light to the lanes of `lit`, a part of the `wanted` of the last sample(). Lights
     /// that are not asked for add nothing.
     void add(std::size_t light, const TileMask& lit);
-    /// Returns the number of pixels that the fallback decided.
+    /// Returns the number of pixels that are left to the fallback.
     int finish(const Tile& tile, const ExactFallback& fallback, Image& image);
+    /// After the last tile: lets the fallback decide the pixels that are left.
+    void decide_open(const ExactFallback& fallback, Image& image) { open_.decide(fallback, image); }
 
   private:
     using LitLanes = std::array<std::uint16_t, kTileBlocks>;
-
-    int redo(const Tile& tile, const TileMask& uncertain, const ExactFallback& fallback,
-             Image& image);
 
     const ShadingTables* tables_;
     ShadingKernels kernels_;
     bool redo_exactly_;
     std::vector<LitLanes> lit_;  // by light
+    OpenPixels open_;
     ShadingScratch scratch_;
 };
 

@@ -30,6 +30,10 @@ class ExactFallback {
           kernel_(scene.scene(), scene.primitives(), scene.triangle_box(), std::nullopt,
                   scene.back_faces()) {}
 
+    const FastScene& scene() const { return scene_; }
+    /// What has been found so far, of use for other pictures.
+    StageCounts& stage_counts() { return kernel_.stage_counts(); }
+
     /// A hit found exactly: bounds on 1 / t in the local frame, and for a quadric its
     /// normal.
     struct Nearest {
