@@ -5,8 +5,9 @@
 
 #include "box_lanes.h"
 
-// One cut: the octants that an item's box touches follow from six comparisons with the planes; only
-// items in more than one octant are tested any further, all of a voxel together.
+// One cut: the octants that an item's box touches follow from comparisons with the planes; of items
+// in more than one octant only those are tested any further, all of a voxel together, that may miss
+// one.
 
 namespace nuvo {
 namespace {
@@ -19,19 +20,24 @@ constexpr double kHope = 1.3;
 constexpr std::uint8_t kLower[3] = {0x55, 0x33, 0x0f};
 constexpr std::uint8_t kUpper[3] = {0xaa, 0xcc, 0xf0};
 
-// Octants by which sides of the planes a box touches: bits 0-2 the lower sides, 3-5 the upper.
-constexpr std::array<std::uint8_t, 64> octants_of_sides() {
-    std::array<std::uint8_t, 64> table{};
-    for (unsigned sides = 0; sides < 64; ++sides) {
+// Octants by SidesOfPlanes, and kSure where an item surely touches them all: it crosses one plane
+// only, and on the other two axes it lies within the voxel, so that it crosses that plane in there.
+constexpr std::uint16_t kSure = 0x100;
+constexpr std::array<std::uint16_t, 512> octants_of_sides() {
+    std::array<std::uint16_t, 512> table{};
+    for (unsigned sides = 0; sides < 512; ++sides) {
         unsigned mask = 0xff;
         for (unsigned axis = 0; axis < 3; ++axis)
             mask &= ((sides >> axis & 1U) != 0 ? kLower[axis] : 0U) |
                     ((sides >> (axis + 3) & 1U) != 0 ? kUpper[axis] : 0U);
-        table[sides] = static_cast<std::uint8_t>(mask);
+        const unsigned crossed = sides & sides >> 3 & 7;
+        const unsigned outside = sides >> 6;
+        const bool sure = std::has_single_bit(crossed) && (outside & ~crossed) == 0;
+        table[sides] = static_cast<std::uint16_t>(mask | (sure ? kSure : 0U));
     }
     return table;
 }
-constexpr std::array<std::uint8_t, 64> kOctantsOfSides = octants_of_sides();
+constexpr std::array<std::uint16_t, 512> kOctantsOfSides = octants_of_sides();
 
 // Bit o of the index becomes byte o: eight counters in a word.
 constexpr std::array<std::uint64_t, 256> spread_bits() {
@@ -103,7 +109,7 @@ std::array<std::size_t, 8> OctantMarker::mark(const CutVoxel& voxel, ItemSpan it
 std::size_t OctantMarker::mark_by_boxes(const CutVoxel& voxel, ItemSpan items,
                                         std::uint8_t* masks) {
     const unsigned existing = existing_octants(voxel);
-    const SidesOfPlanes sides(voxel.cut);
+    const SidesOfPlanes sides(voxel.cut, voxel.bounds);
     if (doubtful_.size() < items.size()) {
         doubtful_.resize(items.size());
         places_.resize(items.size());
@@ -118,13 +124,14 @@ std::size_t OctantMarker::mark_by_boxes(const CutVoxel& voxel, ItemSpan items,
     for (std::size_t i = 0; i < items.size(); ++i) {
         __builtin_prefetch(boxes + items[std::min(i + kPrefetchAhead, items.size() - 1)]);
         const std::uint32_t item = items[i];
-        const unsigned mask = kOctantsOfSides[sides.of(boxes[item])] & existing;
+        const unsigned octants = kOctantsOfSides[sides.of(boxes[item])];
+        const unsigned mask = octants & existing;
         masks[i] = static_cast<std::uint8_t>(mask);
         // Written always, kept where the count moves on: no branch to be guessed wrong.
         doubtful_items[doubtful] = item;
         places[doubtful] = static_cast<std::uint32_t>(i);
         candidates[doubtful] = static_cast<std::uint8_t>(mask);
-        doubtful += (mask & (mask - 1)) != 0 ? 1 : 0;
+        doubtful += (mask & (mask - 1)) != 0 && octants < kSure ? 1 : 0;
     }
     return doubtful;
 }

@@ -20,7 +20,8 @@ struct CutVoxel {
 
 /// Clears in masks[i] the octants (bits as in CompactNode) in whose closed box item items[i] surely
 /// has no point. Called for many items at once, so that it can work in vectors, and by several
-/// threads at a time.
+/// threads at a time; not for items that surely touch all of theirs, which supposes that an item
+/// hangs together and touches each side of its box.
 using OctantTest = std::function<void(const CutVoxel& voxel, std::span<const std::uint32_t> items,
                                       std::span<std::uint8_t> masks)>;
 
