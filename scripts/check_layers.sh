@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Checks the directions of #include between the rooms, and that each third-party library is
-# included in exactly one .cpp (Highway, which kernels are written in, in src/render/fast only):
+# Checks the directions of #include between the rooms, how many files the fast tracer's folders
+# hold, and that each third-party library is included in exactly one .cpp (Highway, which kernels
+# are written in, in src/render/fast only):
 # scripts/check_layers.sh [root of the project]
 set -euo pipefail
 cd -- "${1:-$(dirname -- "${BASH_SOURCE[0]}")/..}"
@@ -17,6 +18,7 @@ declare -A may_see=(
 )
 # The folders of the fast tracer, lowest first: each sees itself and those before it.
 fast_folders=(simd scene tile camera primary light shadow shading rays frame)
+most_files=15  # in one of them
 # A library's headers and the one room that may include them.
 libraries=(
     "boost/property_tree scene"
@@ -61,6 +63,9 @@ below=""
 for folder in "${fast_folders[@]}"; do
     below+=" $folder"
     [ -d "src/render/fast/$folder" ] || continue
+    files=$(find "src/render/fast/$folder" -type f | wc -l)
+    [ "$files" -le $most_files ] ||
+        fault "src/render/fast/$folder: $files files, more than $most_files"
     while IFS=: read -r file line text; do
         [ -n "$file" ] || continue
         seen=$(sed -E 's|.*"fast/([^/"]+)/.*|\1|' <<<"$text")

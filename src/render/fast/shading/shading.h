@@ -3,9 +3,9 @@
 #include <array>
 #include <vector>
 
-#include "fast/shading/open_pixels.h"
 #include "fast/shading/shading_tables.h"
 #include "fast/tile/exact_fallback.h"
+#include "fast/tile/open_pixels.h"
 #include "fast/tile/tile.h"
 #include "nuvo/image/image.h"
 

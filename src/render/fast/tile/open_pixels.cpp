@@ -1,4 +1,4 @@
-#include "fast/shading/open_pixels.h"
+#include "fast/tile/open_pixels.h"
 
 #include <utility>
 
