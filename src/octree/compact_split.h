@@ -86,7 +86,7 @@ class OctantMarker {
 
     BoxSpan boxes_;
     const OctantTest& overlaps_;
-    std::vector<std::uint32_t> doubtful_;   // items with more than one octant,
+    std::vector<std::uint32_t> doubtful_;   // items that may miss one of several octants,
     std::vector<std::uint32_t> places_;     // their places among the items
     std::vector<std::uint8_t> candidates_;  // and their octants
 };
