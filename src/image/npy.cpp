@@ -15,9 +15,6 @@ constexpr std::string_view kMagic = "\x93NUMPY";
 constexpr std::size_t kAlignment = 64;
 constexpr std::string_view kBlanks = " \t\n\r";
 
-/// The beginning of what a file says.
-std::string excerpt(std::string_view text) { return one_line(std::string(text.substr(0, 40))); }
-
 /// A reader of the header's dictionary, a literal of Python.
 class Literal {
   public:

@@ -2,17 +2,6 @@
 
 namespace nuvo::x3d {
 
-std::string excerpt(std::string_view text) {
-    constexpr std::size_t kLongest = 40;
-    std::string shown;
-    for (const char c : text.substr(0, kLongest)) {
-        const bool control = static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
-        shown += control ? '?' : c;
-    }
-    if (text.size() > kLongest) shown += "...";
-    return shown;
-}
-
 void Messages::refuse(const Element& element, std::string_view attribute,
                       const std::string& reason) const {
     const Location location = locate(element, attribute);

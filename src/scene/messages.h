@@ -6,12 +6,10 @@
 #include <vector>
 
 #include "element.h"
+#include "nuvo/math/one_line.h"
 #include "nuvo/scene/x3d.h"
 
 namespace nuvo::x3d {
-
-/// Text of a file made fit for a message: short, and without control characters.
-std::string excerpt(std::string_view text);
 
 /// A node that cannot be drawn as the file says: thrown where that is found, caught where it can be
 /// left out.
