@@ -176,11 +176,8 @@ inline void SingleRays::prefetch(std::span<const Slot> found) const {
         sources[slot < scene_.triangle_end() ? triangles++ : --others] = source;
     }
     const std::span of_triangles(sources.data(), triangles);
-    for (const PrimitiveSource* source : std::span(sources).subspan(others)) {
-        const Object* const object = &object_of(*source);
-        __builtin_prefetch(object);
-        __builtin_prefetch(reinterpret_cast<const char*>(object + 1) - 1);
-    }
+    for (const PrimitiveSource* source : std::span(sources).subspan(others))
+        prefetch_object(object_of(*source));
     if (meshes_.size() * sizeof(MeshPlace) > kCached)
         for (const PrimitiveSource* source : of_triangles)
             __builtin_prefetch(&meshes_[source->object]);

@@ -165,11 +165,7 @@ void FastScene::prefetch(std::span<const Slot> slots) const {
     if (!ids_.empty())
         for (const Slot slot : slots) __builtin_prefetch(&ids_[slot]);
     for (const Slot slot : slots) __builtin_prefetch(&source(slot));
-    for (const Slot slot : slots) {
-        const Object* const object = &scene_.objects[source(slot).object];
-        __builtin_prefetch(object);
-        __builtin_prefetch(reinterpret_cast<const char*>(object + 1) - 1);
-    }
+    for (const Slot slot : slots) prefetch_object(object(id(slot)));
     const auto for_each_triangle = [&](auto&& use) {
         for (const Slot slot : slots) {
             if (slot >= triangle_end_) continue;
