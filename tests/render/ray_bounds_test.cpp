@@ -74,8 +74,8 @@ TEST(RayBounds, HoldTheSlabsOfRays) {
                 const LocalRay local(rays[i], frame, reach);
                 const double advance = local.advance;
                 // A point of the ray near the boxes, as a leaf finds it.
-                const float at = static_cast<float>((1 + uniform(random, 0, 1)) * (is_far ? 2 : 1) *
-                                                    uniform(random, 0, 1));
+                const double most = (1 + uniform(random, 0, 1)) * (is_far ? 2 : 1);
+                const auto at = static_cast<float>(most * uniform(random, 0, 1));
                 for (int axis = 0; axis < 3; ++axis) {
                     const double step = made.lanes.step[i][axis];
                     const double p = made.lanes.origin[i][axis] + static_cast<double>(at) * step;
@@ -150,7 +150,7 @@ TEST(RayBounds, HoldWhereRaysEnterBoxes) {
                 }
                 if (first > last) continue;
                 ++entered;
-                const Real reach = Real(made.lanes.direction[i][3]) * 0x1p14;
+                const Real reach = Real(made.lanes.least_unit(i)) * 0x1p14;
                 for (int axis = 0; axis < 3; ++axis) {
                     const Real p = Real(made.lanes.origin[i][axis]) +
                                    Real(first) * Real(made.lanes.step[i][axis]);

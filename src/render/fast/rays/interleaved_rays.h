@@ -187,7 +187,7 @@ class InterleavedRays {
         const std::uint32_t* const behind =
             head.more ? other_slots + others + std::size_t{4} * spheres + (9 * triangles + 1) / 2
                       : nullptr;
-        if (head.base[3] < state.rays->direction[state.lane][3]) {
+        if (head.finest_unit() < state.rays->least_unit(state.lane)) {
             add_open(state, slots, triangles + spheres + others);
             return behind;
         }

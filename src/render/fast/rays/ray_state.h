@@ -48,13 +48,19 @@ inline constexpr std::array<FacesOnRay, 8> kFacesBySigns = faces_by_signs();
 struct RayLanes {
     static constexpr std::size_t kRays = 16;
 
-    alignas(64) float inverse[kRays][4];  ///< the fourth: behind
-    float near_add[kRays][4];             ///< the fourth: square
-    float far_add[kRays][4];              ///< the fourth: error
-    float direction[kRays][4];            ///< the fourth: least_unit
+    alignas(64) float inverse[kRays][4];  ///< the fourth: behind()
+    float near_add[kRays][4];             ///< the fourth: square()
+    float far_add[kRays][4];              ///< the fourth: error()
+    float direction[kRays][4];            ///< the fourth: least_unit()
     double origin[kRays][4];              ///< the fourth: 0
     double step[kRays][4];                ///< the fourth: 0
     std::int32_t signs[kRays];
+
+    float behind(std::size_t ray) const { return inverse[ray][3]; }
+    float square(std::size_t ray) const { return near_add[ray][3]; }  ///< |d|^2
+    float error(std::size_t ray) const { return far_add[ray][3]; }
+    /// Leaves on a finer grid are not tested in floats.
+    float least_unit(std::size_t ray) const { return direction[ray][3]; }
 };
 
 struct RayState {

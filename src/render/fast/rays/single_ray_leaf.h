@@ -73,9 +73,9 @@ HWY_INLINE std::uint32_t first_lanes(std::uint32_t count) {
 struct RayAtLeaf {
     HWY_INLINE RayAtLeaf(const RayLanes& rays, std::size_t lane, const WideLeafHead& head,
                          float entry_at)
-        : behind(rays.inverse[lane][3]),
-          square(rays.near_add[lane][3]),
-          point_error(rays.far_add[lane][3]),
+        : behind(rays.behind(lane)),
+          square(rays.square(lane)),
+          point_error(rays.error(lane)),
           entry(entry_at) {
         using Four = Lanes<float, 4>;
         using FourDoubles = Lanes<double, 4>;

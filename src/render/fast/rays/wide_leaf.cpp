@@ -174,7 +174,7 @@ WideLeafHead head_of(const Sorted& sorted, const Grid& grid, bool more) {
         head.base[axis] = grid.base[axis];
         head.exponent[axis] = static_cast<std::int8_t>(grid.exponent[axis]);
     }
-    head.base[3] = std::ldexp(1.0F, *std::min_element(head.exponent, head.exponent + 3));
+    head.finest_unit() = std::ldexp(1.0F, *std::min_element(head.exponent, head.exponent + 3));
     head.triangles = static_cast<std::uint8_t>(sorted.triangles.size());
     head.spheres = static_cast<std::uint8_t>(sorted.spheres.size());
     head.others =

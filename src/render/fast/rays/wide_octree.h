@@ -38,7 +38,7 @@ struct alignas(64) WideNode {
 /// `others` are to be tested exactly. Triangles much larger than these follow behind, with a head
 /// and a grid of their own.
 struct WideLeafHead {
-    float base[4];            ///< the fourth: the finest unit
+    float base[4];            ///< the fourth: finest_unit()
     std::int8_t exponent[4];  ///< unit = 2^exponent; the fourth: 0
     std::uint8_t triangles;
     std::uint8_t spheres;
@@ -47,6 +47,9 @@ struct WideLeafHead {
     bool more;  ///< another head follows
 
     static constexpr std::uint8_t kMany = 255;
+
+    float& finest_unit() { return base[3]; }
+    float finest_unit() const { return base[3]; }
 };
 inline constexpr std::uint32_t kFrontOnly = 1U << 31;
 inline constexpr std::size_t kLeafHeadWords = sizeof(WideLeafHead) / sizeof(std::uint32_t);
