@@ -79,8 +79,8 @@ class RayBlock {
                               (floats_from(far) <= Floats(3.5F));
         if ((~usual).any()) return false;
         // 2^-e for 2^e <= size: |d| is in [1, 2), or rounded to float it is 2.
-        const Ints exponent = shift_right<23>(bits_of(float_size));
-        const Doubles unit = doubles_from(floats_of(shift_left<23>(Ints(254) - exponent)));
+        const Ints exponent = shift_right<23>(bits_of(float_size)) - Ints(127);
+        const Doubles unit = doubles_from(powers_of_two(-exponent));
         for (Doubles& step : local.step) step = step * unit;
         local.error = floats_from((far + Doubles(4.0)) * Doubles(0x1p-49));
         local.behind = Floats(0.0F);

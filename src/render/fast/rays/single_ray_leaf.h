@@ -58,11 +58,6 @@ struct LeafVector {
     friend HWY_INLINE LeafFloats sum(const LeafVector& a) { return abs(a.x) + abs(a.y) + abs(a.z); }
 };
 
-/// Two to exponents of normal numbers.
-template <std::size_t N>
-HWY_INLINE Lanes<float, N> powers_of_two(const Lanes<std::int32_t, N>& exponents) {
-    return floats_of(shift_left<23>(exponents + Lanes<std::int32_t, N>(127)));
-}
 /// The first `count` of N lanes, or all.
 template <std::size_t N>
 HWY_INLINE std::uint32_t first_lanes(std::uint32_t count) {

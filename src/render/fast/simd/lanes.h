@@ -400,6 +400,11 @@ HWY_INLINE Lanes<std::int32_t, N> shift_left(Lanes<std::int32_t, N> v) {
         v.part[i] = hn::ShiftLeft<kBits>(v.part[i]);
     return v;
 }
+/// Two to exponents of normal numbers.
+template <std::size_t N>
+HWY_INLINE Lanes<float, N> powers_of_two(const Lanes<std::int32_t, N>& exponents) {
+    return floats_of(shift_left<23>(exponents + Lanes<std::int32_t, N>(127)));
+}
 /// With copies of the sign.
 template <int kBits, std::size_t N>
 HWY_INLINE Lanes<std::int32_t, N> shift_right(Lanes<std::int32_t, N> v) {
