@@ -28,16 +28,19 @@ std::optional<int> sure_side(const Triangle& t, const Vector3& p, bool far) {
 
 }  // namespace
 
-int SideMemo::exact_side(const Triangle& t, const Vector3& p, bool far, std::uint64_t& exact) {
+int exact_side(const Triangle& t, const Vector3& p, bool far) {
+    const ExactVector a(t.a);
+    const ExactVector normal = cross(ExactVector(t.b) - a, ExactVector(t.c) - a);
+    return dot(normal, far ? ExactVector(-p) : a - ExactVector(p)).sign();
+}
+
+int SideMemo::kept_side(const Triangle& t, const Vector3& p, bool far, std::uint64_t& exact) {
     // An empty entry's triangle has no area, and is not asked about.
     if (entries_.empty()) entries_.resize(kEntries);
     Entry& entry = entries_[detail::memo_hash(t, p, far) % kEntries];
     if (!detail::same(entry.triangle, t) || !(entry.p == p) || entry.far != far) {
         ++exact;
-        const ExactVector a(t.a);
-        const ExactVector normal = cross(ExactVector(t.b) - a, ExactVector(t.c) - a);
-        const ExactVector way = far ? ExactVector(-p) : a - ExactVector(p);
-        entry = {t, p, far, dot(normal, way).sign()};
+        entry = {t, p, far, exact_side(t, p, far)};
     }
     return entry.sign;
 }
@@ -45,12 +48,12 @@ int SideMemo::exact_side(const Triangle& t, const Vector3& p, bool far, std::uin
 int SideMemo::side(const Triangle& triangle, const Point3& p, std::uint64_t& exact) {
     if (detail::is_corner(p, triangle)) return 0;
     if (const std::optional<int> sign = sure_side(triangle, p, false)) return *sign;
-    return exact_side(triangle, p, false, exact);
+    return kept_side(triangle, p, false, exact);
 }
 
 int SideMemo::side_along(const Triangle& triangle, const Vector3& d, std::uint64_t& exact) {
     if (const std::optional<int> sign = sure_side(triangle, d, true)) return *sign;
-    return exact_side(triangle, d, true, exact);
+    return kept_side(triangle, d, true, exact);
 }
 
 }  // namespace nuvo

@@ -18,6 +18,10 @@
 /// docs/numerics.md.
 namespace nuvo {
 
+/// The sign of n.(a - p), with n = (b - a) x (c - a), by exact arithmetic: on which side of the
+/// triangle's plane p lies, or if `far` the point infinitely far away in the direction p.
+int exact_side(const Triangle& triangle, const Vector3& p, bool far);
+
 /// Exact answers that were given before. A plane through the eye or a light, and two triangles in
 /// one plane, are asked about by every ray.
 class SideMemo {
@@ -35,7 +39,7 @@ class SideMemo {
         bool far;  // p is a direction
         int sign;
     };
-    int exact_side(const Triangle& triangle, const Vector3& p, bool far, std::uint64_t& exact);
+    int kept_side(const Triangle& triangle, const Vector3& p, bool far, std::uint64_t& exact);
 
     std::vector<Entry> entries_;  // by a hash, the last one asked for; none before the first
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "exact_kernel.h"
 #include "nuvo/math/error_bounds.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -89,9 +90,10 @@ class PlanesMaker {
         return Wide::load(sides_);
     }
     HWY_NOINLINE void decide(const TriangleBatch& batch, std::uint32_t open) {
+        const LightPlace light = place_of(job_.exact_light);
         for (; open != 0; open &= open - 1) {
             const auto i = static_cast<std::size_t>(std::countr_zero(open));
-            sides_[i] = exact_light_side(job_.exact_light, batch.triangle(i));
+            sides_[i] = -exact_side(batch.triangle(i), light.at, light.endless);
             any_in_plane_ |= sides_[i] == 0;
         }
     }
@@ -136,7 +138,6 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 #include "fast/simd/dispatch.h"
-#include "nuvo/math/exact.h"
 
 namespace nuvo {
 
@@ -149,14 +150,6 @@ void make_shadow_planes(const ShadowPlanesJob& job, const TriangleChunk& chunk,
         return;
     }
     (NUVO_FOR_ISA(isa, make_planes))(job, chunk);
-}
-
-int exact_light_side(const Light& light, const Triangle& triangle) {
-    const ExactVector a(triangle.a);
-    const ExactVector normal = cross(ExactVector(triangle.b) - a, ExactVector(triangle.c) - a);
-    if (light.kind == Light::Kind::kDirectional)
-        return dot(normal, ExactVector(-light.direction)).sign();
-    return dot(normal, ExactVector(light.location) - a).sign();
 }
 
 }  // namespace nuvo

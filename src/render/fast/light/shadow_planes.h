@@ -38,8 +38,4 @@ struct ShadowPlanesJob {
 /// something, and their planes decide nothing.
 void make_shadow_planes(const ShadowPlanesJob& job, const TriangleChunk& chunk, InstructionSet isa);
 
-/// On which side of the triangle's plane the light stands, exactly: the sign of n.(L - a), or of
-/// n.d for a direction d to the light; n = (b - a) x (c - a).
-int exact_light_side(const Light& light, const Triangle& triangle);
-
 }  // namespace nuvo
