@@ -72,17 +72,11 @@ class CornerFetch {
     void gather(const Batch& batch) {
         for (std::size_t i = 0; i < batch.count; ++i) {
             TriangleBatch& to = corners_[i / TriangleBatch::kSize];
-            const std::size_t lane = i % TriangleBatch::kSize;
-            for (std::size_t k = 0; k < 3; ++k) {
-                const Point3& p = batch.positions[i][(*batch.indices[i])[k]];
-                to.corner[3 * k][lane] = p.x;
-                to.corner[3 * k + 1][lane] = p.y;
-                to.corner[3 * k + 2][lane] = p.z;
-            }
+            for (std::size_t k = 0; k < 3; ++k)
+                to.put(i % TriangleBatch::kSize, k, batch.positions[i][(*batch.indices[i])[k]]);
         }
-        for (std::size_t i = batch.count; i % TriangleBatch::kSize != 0; ++i)
-            for (auto& column : corners_[i / TriangleBatch::kSize].corner)
-                column[i % TriangleBatch::kSize] = column[0];
+        const std::size_t rest = batch.count % TriangleBatch::kSize;
+        if (rest != 0) corners_[batch.count / TriangleBatch::kSize].fill_up(rest);
         for (std::size_t half = 0; half < corners_.size(); ++half)
             corners_[half].front_only = batch.front_only >> half * TriangleBatch::kSize &
                                         ((1U << TriangleBatch::kSize) - 1);

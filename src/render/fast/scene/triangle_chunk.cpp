@@ -41,21 +41,14 @@ void TriangleChunk::gather(const FastScene& scene, Slot end, SlotAt&& slot_at) {
         for (; place < last && scene.source(slot_at(place)).object == object; ++place) {
             const IndexTriple& corners = mesh.triangles[scene.source(slot_at(place)).triangle];
             TriangleBatch& batch = batches[(place - first) / TriangleBatch::kSize];
-            auto& to = batch.corner;
             const std::size_t lane = (place - first) % TriangleBatch::kSize;
             batch.front_only = (lane == 0 ? 0 : batch.front_only) | front_only << lane;
             batch.shadowless = (lane == 0 ? 0 : batch.shadowless) | shadowless << lane;
-            for (std::size_t i = 0; i < 3; ++i) {
-                const Point3& p = mesh.positions[corners[i]];
-                to[3 * i][lane] = p.x;
-                to[3 * i + 1][lane] = p.y;
-                to[3 * i + 2][lane] = p.z;
-            }
+            for (std::size_t k = 0; k < 3; ++k) batch.put(lane, k, mesh.positions[corners[k]]);
         }
     }
-    for (; (place - first) % TriangleBatch::kSize != 0; ++place)
-        for (auto& column : batches[(place - first) / TriangleBatch::kSize].corner)
-            column[(place - first) % TriangleBatch::kSize] = column[0];
+    const std::size_t rest = (last - first) % TriangleBatch::kSize;
+    if (rest != 0) batches[(last - first) / TriangleBatch::kSize].fill_up(rest);
 }
 
 void TriangleChunk::fetch(const FastScene& scene, Slot first_slot, Slot last_slot) {

@@ -20,6 +20,16 @@ struct alignas(64) TriangleBatch {
     std::uint32_t front_only;  ///< bit i: the back of triangle i is invisible
     std::uint32_t shadowless;  ///< bit i: it casts no shadow
 
+    /// Corner k (0: a) of triangle i.
+    void put(std::size_t i, std::size_t k, const Point3& p) {
+        corner[3 * k][i] = p.x;
+        corner[3 * k + 1][i] = p.y;
+        corner[3 * k + 2][i] = p.z;
+    }
+    /// Fills the places from `count` on with the first triangle.
+    void fill_up(std::size_t count) {
+        for (auto& column : corner) std::fill(column + count, column + kSize, column[0]);
+    }
     Triangle triangle(std::size_t i) const {
         return {{corner[0][i], corner[1][i], corner[2][i]},
                 {corner[3][i], corner[4][i], corner[5][i]},
