@@ -57,7 +57,7 @@ class PixelBoxMaker {
         }
         low[2] = min(column[0][2], min(column[1][2], column[2][2]));
         high[2] = max(column[0][2], max(column[1][2], column[2][2]));
-        const Singles least = rounded(reach) * Singles(kLeastDepth);
+        const Singles least = floats_from(reach) * Singles(kLeastDepth);
         for (int k = 0; k < 2; ++k) {
             low[k] = Singles(std::numeric_limits<float>::infinity());
             high[k] = -low[k];
@@ -81,7 +81,7 @@ class PixelBoxMaker {
         }
         const Numbers p[3] = {Numbers::load(column[0]), Numbers::load(column[1]),
                               Numbers::load(column[2])};
-        const Singles r = rounded(Numbers::load(column[3]));
+        const Singles r = floats_from(Numbers::load(column[3]));
         const Singles z = along(2, p);
         // (z - r)(z + r), where z > 2 r within 8 roundings.
         const Singles inverse = Singles(1.0F) / ((z - r) * (z + r));
@@ -99,7 +99,7 @@ class PixelBoxMaker {
             low[k] = middle - spread - slack;
             high[k] = middle + spread + slack;
         }
-        const Singles reach = rounded(abs(p[0]) + abs(p[1]) + abs(p[2])) + r;
+        const Singles reach = floats_from(abs(p[0]) + abs(p[1]) + abs(p[2])) + r;
         const Singles least = reach * Singles(kLeastDepth);
         const auto known =
             (z > r + r) & (z > max(least, Singles(kLeast))) & (least < Singles(kLargest));
@@ -119,17 +119,9 @@ class PixelBoxMaker {
     static constexpr float kMargin = 0x1p-6F;
     static constexpr float kLongestFocal = 0x1p24F;
 
-    static HWY_INLINE Singles rounded(const Numbers& v) {
-        constexpr std::size_t kPart = Numbers::Shape::kPart;
-        const hn::FixedTag<float, kPart> floats;
-        alignas(64) float out[kGroup];
-        for (std::size_t i = 0; i < Numbers::Shape::kParts; ++i)
-            hn::StoreU(to_floats(floats, v.part[i]), floats, out + i * kPart);
-        return Singles::load(out);
-    }
     HWY_INLINE Singles along(int k, const Numbers (&p)[3]) const {
-        return rounded(mul_add(p[0], Numbers(axis_[k].x),
-                               mul_add(p[1], Numbers(axis_[k].y), p[2] * Numbers(axis_[k].z))));
+        return floats_from(mul_add(p[0], Numbers(axis_[k].x),
+                                   mul_add(p[1], Numbers(axis_[k].y), p[2] * Numbers(axis_[k].z))));
     }
 
     // The pixels from low to high (in pixel coordinates), or none behind, or else all.

@@ -21,20 +21,17 @@ inline constexpr std::size_t kBatch = 8;
 using Wide = Lanes<double, kBatch>;
 
 /// Each number rounded to the nearest float.
-HWY_INLINE void store_rounded(const Wide& v, float* to) {
-    constexpr std::size_t kPart = Wide::Shape::kPart;
-    const hn::FixedTag<float, kPart> floats;
-    for (std::size_t i = 0; i < Wide::Shape::kParts; ++i)
-        hn::StoreU(to_floats(floats, v.part[i]), floats, to + i * kPart);
-}
+HWY_INLINE void store_rounded(const Wide& v, float* to) { floats_from(v).store(to); }
 
 struct Wide3 {
     Wide x, y, z;
 };
 HWY_INLINE Wide3 wide(const Vector3& v) { return {Wide(v.x), Wide(v.y), Wide(v.z)}; }
 /// From three columns.
-HWY_INLINE Wide3 load_wide(const double (*columns)[kBatch]) {
-    return {Wide::load(columns[0]), Wide::load(columns[1]), Wide::load(columns[2])};
+template <std::size_t kColumn>
+HWY_INLINE Wide3 load_wide(const double (*columns)[kColumn], std::size_t first = 0) {
+    return {Wide::load(columns[0] + first), Wide::load(columns[1] + first),
+            Wide::load(columns[2] + first)};
 }
 HWY_INLINE Wide3 operator+(const Wide3& a, const Wide3& b) {
     return {a.x + b.x, a.y + b.y, a.z + b.z};
