@@ -30,14 +30,10 @@ Bounds3T<float> rounded_outwards(const Bounds3& box) {
 }
 
 Triangle local_triangle(const FastScene& scene, Slot slot) {
-    const PrimitiveSource& source = scene.source(slot);
-    const auto& mesh = std::get<TriangleMesh>(scene.scene().objects[source.object].shape);
-    const Triangle t = mesh.triangle(source.triangle);
+    const Triangle t = scene.triangle(slot);
     const LocalFrame& frame = scene.frame();
     return {frame.local(t.a), frame.local(t.b), frame.local(t.c)};
 }
-
-double extent(const Bounds3& box) { return max_norm(box.widths()); }
 
 struct Grid {
     Vec3<float> base{0, 0, 0};
@@ -99,10 +95,6 @@ std::size_t cut_polygon(Polygon& polygon, std::size_t count, int axis, double pl
     return kept;
 }
 
-}  // namespace
-
-namespace {
-
 // Primitives of one head by what becomes of them.
 struct Sorted {
     std::vector<Slot> triangles;
@@ -123,7 +115,7 @@ void sort_triangles(const FastScene& scene, std::span<const Slot> slots, std::ve
     std::vector<SizedTriangle> triangles;
     for (const Slot slot : slots) {
         const Triangle t = local_triangle(scene, slot);
-        triangles.push_back({extent(t.bounds()), slot, t});
+        triangles.push_back({max_norm(t.bounds().widths()), slot, t});
     }
     std::sort(triangles.begin(), triangles.end(),
               [](const auto& a, const auto& b) { return a.extent < b.extent; });
@@ -144,12 +136,10 @@ void sort_others(const FastScene& scene, std::span<const Slot> slots, Sorted& ou
             out.others.push_back(slot);
             continue;
         }
-        const auto& s = std::get<Sphere>(scene.scene().objects[scene.source(slot).object].shape);
-        const Point3 center = scene.frame().local(s.center);
+        const LocalSphere s = scene.local(std::get<Sphere>(scene.object(scene.id(slot)).shape));
         out.spheres.push_back(slot);
-        for (int axis = 0; axis < 3; ++axis)
-            out.centers_and_radii[axis].push_back(static_cast<float>(center[axis]));
-        out.centers_and_radii[3].push_back(static_cast<float>(s.radius * scene.frame().scale));
+        for (int axis = 0; axis < 3; ++axis) out.centers_and_radii[axis].push_back(s.center[axis]);
+        out.centers_and_radii[3].push_back(s.radius);
     }
 }
 
@@ -196,8 +186,8 @@ void put_part(const FastScene& scene, const Sorted& sorted, const Bounds3T<float
         words.push_back(static_cast<std::uint32_t>(sorted.others.size()));
     for (const auto* part : {&sorted.triangles, &sorted.spheres, &sorted.others})
         for (const Slot slot : *part) {
-            const Object& object = scene.scene().objects[scene.source(slot).object];
-            words.push_back(slot | (scene.front_only(object) ? kFrontOnly : 0));
+            const bool front_only = scene.front_only(scene.object(scene.id(slot)));
+            words.push_back(slot | (front_only ? kFrontOnly : 0));
         }
     for (const auto& values : sorted.centers_and_radii) put_floats(values, words);
     put_corners(grid, sorted.corners, words);
@@ -219,7 +209,7 @@ Bounds3T<float> whole_box(const FastScene& scene, Slot slot) {
 }
 
 Bounds3T<float> clipped_box(const FastScene& scene, Slot slot, const Bounds3T<float>& voxel) {
-    Bounds3 box;
+    Bounds3T<float> box;
     if (slot < scene.triangle_end()) {
         const Triangle t = local_triangle(scene, slot);
         Polygon polygon{t.a, t.b, t.c};
@@ -232,14 +222,14 @@ Bounds3T<float> clipped_box(const FastScene& scene, Slot slot, const Bounds3T<fl
             if (whole.min[axis] < low) count = cut_polygon(polygon, count, axis, low, true);
             if (whole.max[axis] > high) count = cut_polygon(polygon, count, axis, high, false);
         }
-        for (std::size_t i = 0; i < count; ++i) box = box.extended(polygon[i]);
+        if (count == 0) return {};
+        Bounds3 part;
+        for (std::size_t i = 0; i < count; ++i) part = part.extended(polygon[i]);
+        box = rounded_outwards(part);
     } else {
-        const Bounds3& world = scene.primitives().item_boxes[scene.id(slot)];
-        box = {scene.frame().local(world.min), scene.frame().local(world.max)};
+        box = whole_box(scene, slot);
     }
-    if (box.empty()) return {};
-    const Bounds3T<float> out = rounded_outwards(box);
-    return {max(out.min, voxel.min), min(out.max, voxel.max)};
+    return {max(box.min, voxel.min), min(box.max, voxel.max)};
 }
 
 }  // namespace nuvo

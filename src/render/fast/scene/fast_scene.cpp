@@ -69,10 +69,8 @@ class LocalItemsMaker {
     void put_quadric(const QuadricSlot& quadric) {
         items_.boxes[quadric.slot] = local_box(frame_, fast_.primitives().item_boxes[quadric.id]);
         if (quadric.slot >= fast_.sphere_end()) return;
-        const Sphere& sphere = std::get<Sphere>(fast_.object(quadric.id).shape);
-        items_.spheres[quadric.slot - fast_.triangle_end()] = {
-            Vec3<float>(frame_.local(sphere.center)),
-            static_cast<float>(sphere.radius * frame_.scale)};
+        items_.spheres[quadric.slot - fast_.triangle_end()] =
+            fast_.local(std::get<Sphere>(fast_.object(quadric.id).shape));
     }
 
     const FastScene& fast_;

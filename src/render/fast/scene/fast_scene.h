@@ -82,6 +82,11 @@ class FastScene {
         const PrimitiveSource& from = source(slot);
         return std::get<TriangleMesh>(scene_.objects[from.object].shape).triangle(from.triangle);
     }
+    /// In the local frame, rounded to nearest.
+    LocalSphere local(const Sphere& sphere) const {
+        return {Vec3<float>(frame_.local(sphere.center)),
+                static_cast<float>(sphere.radius * frame_.scale)};
+    }
     /// What tells these primitives, and how triangles lie, is on its way from memory.
     void prefetch(std::span<const Slot> slots) const;
     /// All spheres and ellipsoids in document order, in which the scene is read fastest.
