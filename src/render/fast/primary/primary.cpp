@@ -47,11 +47,10 @@ class PrimaryTracer {
 
     void run() {
         const CompactOctree& octree = job_.scene.octree();
-        const double reach = std::max(max_norm(octree.bounds.min), max_norm(octree.bounds.max));
         const Slot triangle_end = job_.scene.triangle_end();
         job_.mailbox.start();
         walk_frustum(
-            octree, Frustum(job_.camera, tile_, reach),
+            octree, Frustum(job_.camera, tile_, job_.scene.reach()),
             [&](BlockRange range, float nearest) HWY_ATTR { return is_open(range, nearest); },
             [&](const std::uint32_t* items, std::uint32_t count) HWY_ATTR {
                 for (std::uint32_t i = 0; i < count; ++i) {

@@ -385,9 +385,7 @@ class WideBuilder {
 
 WideOctree::WideOctree(const FastScene& scene) {
     const CompactOctree octree = scene.octree(octree_options());
-    const auto& [low, high] = octree.bounds;
-    for (int axis = 0; axis < 3; ++axis)
-        reach = std::max(reach, std::max(std::fabs(low[axis]), std::fabs(high[axis])));
+    reach = std::max(max_norm(octree.bounds.min), max_norm(octree.bounds.max));
     WideBuilder(scene, octree, *this).build();
 }
 

@@ -28,7 +28,7 @@ std::optional<ExactFallback::Nearest> ExactFallback::nearer(int x, int y, Slot s
     const auto inverse = static_cast<float>(scaled);
     Nearest nearest{inverse * (1 - kRounded), inverse * (1 + kRounded), {}};
     if (slot >= scene_.triangle_end()) {
-        const Object& object = scene_.scene().objects[scene_.source(slot).object];
+        const Object& object = scene_.object(scene_.id(slot));
         Object solid{{}, object.material, object.shape_index, true};
         nearest.normal = kernel_.surface(prepared, *hit, solid).normal;
     }
@@ -39,7 +39,7 @@ ExactFallback::Kernel::Shadow ExactFallback::shadow_ray(int x, int y, Slot lit,
                                                         std::size_t light) const {
     const ExactRay prepared = kernel_.prepare(camera_.rays.ray(x, y));
     const auto hit = kernel_.hit_of(prepared, scene_.id(lit));
-    const Object& object = scene_.scene().objects[scene_.source(lit).object];
+    const Object& object = scene_.object(scene_.id(lit));
     const auto surface = kernel_.surface(prepared, *hit, object);
     return kernel_.shadow(surface, scene_.scene().lights[light]);
 }
