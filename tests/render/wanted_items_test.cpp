@@ -165,6 +165,37 @@ TEST(KeptTables, ServePicturesOfOtherCameras) {
     }
 }
 
+TEST(KeptTables, CountWhatTheirThreadsKnow) {
+    Scene scene;
+    scene.materials.emplace_back();
+    TriangleMesh mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 2}, {0, 1, 3}};
+    mesh.triangles = {{0, 1, 2}, {3, 4, 5}};
+    scene.objects.push_back({mesh, 0, 0});
+    scene.lights.emplace_back().location = {1, 2, 9};
+    const Primitives primitives = flatten(scene, LeafContent::kPrimitives);
+    const FastScene fast(scene, primitives, OctreeType::kUniform, 1);
+    KeptTables kept;
+    kept.begin(fast, 2);
+    EXPECT_EQ(kept.thread_bytes(), 0u);
+    // Far apart: no sign is kept.
+    constexpr std::size_t kPairs = 1024 * 16;
+    kept.of_thread(0).pairs.of(0, 1, 0);
+    EXPECT_EQ(kept.thread_bytes(), kPairs);
+    kept.of_thread(1).pairs.of(0, 1, 0);
+    EXPECT_EQ(kept.thread_bytes(), 2 * kPairs);
+    // In the plane, which only exact arithmetic tells: triangle, point, kind and sign.
+    constexpr std::size_t kSides = 4096 * (9 + 3 + 1) * sizeof(double);
+    const Triangle plane{{0, 0, 0}, {1.0 / 3, 1.0 / 7, 1.0 / 11}, {1.0 / 5, 1.0 / 13, 1.0 / 17}};
+    StageCounts& stages = kept.of_thread(1).stages;
+    EXPECT_EQ(stages.sides.side(plane, plane.b * 0.5, stages.exact), 0);
+    EXPECT_EQ(stages.exact, 1u);
+    EXPECT_EQ(kept.thread_bytes(), 2 * kPairs + kSides);
+    scene.lights.clear();
+    kept.begin(fast, 2);
+    EXPECT_EQ(kept.thread_bytes(), 0u);
+}
+
 TEST(WantedDepths, CoverThePointsThatTheyCount) {
     int covered = 0;
     int all = 0;

@@ -10,6 +10,7 @@
 #include "nuvo/geometry/ellipsoid.h"
 #include "nuvo/geometry/sphere.h"
 #include "nuvo/geometry/triangle_mesh.h"
+#include "nuvo/math/big_vector.h"
 #include "nuvo/math/error_bounds.h"
 #include "nuvo/math/ray.h"
 
@@ -31,6 +32,8 @@ class SideMemo {
     int side(const Triangle& triangle, const Point3& p, std::uint64_t& exact);
     /// The same for a point infinitely far away in the direction d.
     int side_along(const Triangle& triangle, const Vector3& d, std::uint64_t& exact);
+
+    std::size_t memory_bytes() const { return vector_bytes(entries_); }
 
   private:
     struct Entry {
@@ -73,6 +76,8 @@ class EdgeMemo {
         return known(triangle, d, true);
     }
 
+    std::size_t memory_bytes() const { return vector_bytes(entries_); }
+
   private:
     struct Entry {
         Triangle triangle;
@@ -97,6 +102,8 @@ struct StageCounts {
     std::uint64_t exact = 0;  ///< exact arithmetic decided
     SideMemo sides;
     EdgeMemo edges;
+
+    std::size_t memory_bytes() const { return sides.memory_bytes() + edges.memory_bytes(); }
 };
 
 namespace detail {

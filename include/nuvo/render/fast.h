@@ -42,7 +42,9 @@ struct FastMemory {
     std::size_t structure = 0;  ///< nodes, references and leaf copies
     std::size_t tables = 0;     ///< per camera and light, of the last picture
     std::size_t corners = 0;    ///< of triangles in single precision, and the primitives' order
-    std::size_t kept = 0;       ///< freed blocks that waited for their next use at that time
+    /// Between pictures: freed blocks that wait for their next use, and what threads know of pairs
+    /// of triangles and of exact signs.
+    std::size_t kept = 0;
 };
 
 /// Time by stage on the clock of the wall, in seconds, summed over the threads.

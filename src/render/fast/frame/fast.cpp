@@ -84,7 +84,7 @@ const CompactOctree& FastTracer::octree() const { return state_->fast.octree(); 
 FastMemory FastTracer::memory() const {
     const std::size_t rays = state_->single ? state_->single->memory_bytes() : 0;
     return {state_->fast.octree().memory_bytes() + rays, state_->table_bytes,
-            state_->fast.memory_bytes(), state_->kept_bytes};
+            state_->fast.memory_bytes(), state_->kept_bytes + state_->kept.thread_bytes()};
 }
 
 }  // namespace nuvo

@@ -46,6 +46,13 @@ class KeptTables {
         StageCounts stages;  ///< taken by the thread's fallback, and given back
     };
     OfThread& of_thread(int thread) { return threads_[static_cast<std::size_t>(thread)]; }
+    /// Bytes of what the threads know; between two pictures.
+    std::size_t thread_bytes() const {
+        std::size_t bytes = 0;
+        for (const OfThread& thread : threads_)
+            bytes += thread.pairs.memory_bytes() + thread.stages.memory_bytes();
+        return bytes;
+    }
 
     std::optional<ShadingTriangles> shading;  ///< taken by a picture, and given back
 

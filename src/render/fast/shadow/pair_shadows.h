@@ -30,6 +30,7 @@ class PairShadows {
         return kept_.of({lit, occluder, static_cast<std::uint32_t>(light)},
                         [&] { return find(lit, occluder, light); });
     }
+    std::size_t memory_bytes() const { return kept_.memory_bytes() + counts_.memory_bytes(); }
 
   private:
     PairShadow find(Slot lit, Slot occluder, std::size_t light);

@@ -34,6 +34,8 @@ class PairCache {
         return entry.answer;
     }
 
+    std::size_t memory_bytes() const { return vector_bytes(entries_); }
+
   private:
     static constexpr std::size_t kLeast = std::size_t{1} << 10;
     static constexpr std::size_t kMost = std::size_t{1} << 18;  // 4 MB
