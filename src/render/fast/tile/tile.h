@@ -49,7 +49,13 @@ struct alignas(64) Tile {
 /// The primary rays of a picture as an affine function of the pixel, which RayGenerator's are but
 /// for their length: [eq. 34, 35] in double, in the local frame.
 struct CameraRays {
-    CameraRays(const Camera& camera, Resolution size, const LocalFrame& frame);
+    CameraRays(const Camera& camera, Resolution size, const LocalFrame& frame)
+        : resolution(size),
+          rays(camera, size),
+          origin(frame.local(camera.position)),
+          forward(camera.forward),
+          right(rays.step_right()),
+          down(rays.step_down()) {}
 
     /// Pixel coordinates count from the picture's centre: X = x + 0.5 - width / 2.
     Vector3 direction(double from_center_x, double from_center_y) const {
