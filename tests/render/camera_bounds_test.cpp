@@ -12,7 +12,7 @@ namespace nuvo::HWY_NAMESPACE {
 
 std::uint32_t make_triangles(const CameraRays& camera, const Point3& eye, double scale,
                              const TriangleBatch& batch, CameraTriangle* out) {
-    return TriangleMaker(camera, eye, scale).make(batch, out, TriangleBatch::kSize).unknown;
+    return TriangleMaker({camera, eye, scale}).make(batch, out, TriangleBatch::kSize).unknown;
 }
 
 }  // namespace nuvo::HWY_NAMESPACE
@@ -252,7 +252,7 @@ TEST(CameraBounds, HoldTheOrderOfTwoPlanes) {
         const CameraRays camera(view.scene.camera, kPicture, fast.frame());
         PlaneOrders orders(fast, camera);
         const auto first = [&](Slot slot) { return fast.source(slot).triangle == 0 ? t : other; };
-        const PlaneOrder order = orders.between(0, 1);
+        const PixelFunction order = orders.between(0, 1);
         // 1 / t - 1 / t', by a positive factor.
         const View local(view.scene.camera, fast.frame().scale);
         const RealVector difference =

@@ -14,6 +14,28 @@
 
 namespace nuvo {
 
+/// How far pixel coordinates and directions reach: over the picture and the middles of its tiles,
+/// from which functions are evaluated. A tile that sticks out has its middle less than half a
+/// tile outside.
+struct CameraExtent {
+    explicit CameraExtent(const CameraRays& camera)
+        : x(0.5 * (camera.resolution.width + kTileSide)),
+          y(0.5 * (camera.resolution.height + kTileSide)),
+          direction(3 * (max_norm(camera.forward) + x * max_norm(camera.right) +
+                         y * max_norm(camera.down))) {}
+
+    double x;  ///< pixels
+    double y;
+    double direction;  ///< bounds the sum of |components| of forward, X right and Y down
+};
+
+/// What triangles' records are made for.
+struct CameraTrianglesJob {
+    const CameraRays& camera;
+    Point3 eye;    ///< world space
+    double scale;  ///< of the local frame
+};
+
 /// The functions u, v, w (each >= 0 inside of an edge) and q = 1 / t of a triangle at the pixel
 /// coordinates X, Y of CameraRays: value = c + a X + b Y, each off by at most e over the picture
 /// if it is evaluated in float by at most kCameraRoundings operations. e is infinite where floats

@@ -8,7 +8,7 @@
 
 #include <limits>
 
-#include "fast/camera/camera_triangles.h"
+#include "fast/camera/camera_tables.h"
 #include "fast/simd/wide_vectors.h"
 #include "nuvo/math/error_bounds.h"
 
@@ -21,13 +21,13 @@ namespace nuvo::HWY_NAMESPACE {
 
 class TriangleMaker {
   public:
-    TriangleMaker(const CameraRays& camera, const Point3& eye, double scale)
-        : right_(wide(camera.right)),
-          down_(wide(camera.down)),
-          forward_(wide(camera.forward)),
-          eye_(wide(eye)),
-          scale_(scale),
-          extent_(camera) {}
+    explicit TriangleMaker(const CameraTrianglesJob& job)
+        : right_(wide(job.camera.right)),
+          down_(wide(job.camera.down)),
+          forward_(wide(job.camera.forward)),
+          eye_(wide(job.eye)),
+          scale_(job.scale),
+          extent_(job.camera) {}
 
     /// Which of a batch's triangles double arithmetic cannot tell, and which of the others turn a
     /// back to the eye that nobody sees; where all do so nothing is made of them.

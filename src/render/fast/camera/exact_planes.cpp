@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "fast/camera/camera_triangles.h"
 #include "nuvo/math/error_bounds.h"
 
 namespace nuvo {
@@ -30,6 +29,17 @@ ScaledVector::ScaledVector(const ExactVector& v) {
                 WideDouble(part[axis].significand(), part[axis].exponent() - exponent).rounded();
 }
 
+PixelFunction along_rays(const CameraRays& camera, const Vector3& v) {
+    const CameraExtent extent(camera);
+    const double a = dot(v, camera.right);
+    const double b = dot(v, camera.down);
+    const double c = dot(v, camera.forward);
+    const double most = std::fabs(a) * extent.x + std::fabs(b) * extent.y + std::fabs(c);
+    return {static_cast<float>(a), static_cast<float>(b), static_cast<float>(c),
+            rounded_up(gamma(64) * max_norm(v) * extent.direction +
+                       roundings(kCameraRoundings) * most + kFloatUnderflow)};
+}
+
 void make_exact_camera_triangle(const CameraTrianglesJob& job, const Triangle& triangle,
                                 bool front_only, CameraTriangle& out, PixelBox& box) {
     const ExactPlane plane(triangle, job.eye);
@@ -38,36 +48,29 @@ void make_exact_camera_triangle(const CameraTrianglesJob& job, const Triangle& t
         box = kNoPixels;
         return;
     }
-    const CameraExtent extent(job.camera);
-    // A function with what rounds it: its own components, and the exact rays' directions.
-    const auto put = [&](int i, const Vector3& v) {
-        const double a = dot(v, job.camera.right);
-        const double b = dot(v, job.camera.down);
-        const double c = dot(v, job.camera.forward);
-        const double most = std::fabs(a) * extent.x + std::fabs(b) * extent.y + std::fabs(c);
-        out.a[i] = static_cast<float>(a);
-        out.b[i] = static_cast<float>(b);
-        out.c[i] = static_cast<float>(c);
-        out.e[i] = rounded_up(gamma(64) * max_norm(v) * extent.direction +
-                              roundings(kCameraRoundings) * most + kFloatUnderflow);
+    const auto put = [&](int i, const PixelFunction& f) {
+        out.a[i] = f.a;
+        out.b[i] = f.b;
+        out.c[i] = f.c;
+        out.e[i] = f.e;
     };
     const ExactVector eye(job.eye);
     const ExactVector corner[3] = {ExactVector(triangle.a) - eye, ExactVector(triangle.b) - eye,
                                    ExactVector(triangle.c) - eye};
     // Edge functions may have any positive factor.
     for (int i = 0; i < 3; ++i)
-        put(i, ScaledVector(cross(corner[(i + 1) % 3], corner[(i + 2) % 3])).value * sign);
+        put(i,
+            along_rays(job.camera,
+                       ScaledVector(cross(corner[(i + 1) % 3], corner[(i + 2) % 3])).value * sign));
     const ScaledVector normal(plane.normal);
     const WideDouble constant = plane.constant.approximate();
     const WideDouble inverse = WideDouble(1, normal.exponent) / (constant * WideDouble(job.scale));
     constexpr double kLargest = 0x1p120;
     const double factor = inverse.rounded();
-    if (std::fabs(factor) * extent.direction < kLargest) {
-        put(3, normal.value * factor);
-    } else {
-        out.a[3] = out.b[3] = out.c[3] = 0;
-        out.e[3] = std::numeric_limits<float>::infinity();
-    }
+    if (std::fabs(factor) * CameraExtent(job.camera).direction < kLargest)
+        put(3, along_rays(job.camera, normal.value * factor));
+    else
+        put(3, {0, 0, 0, std::numeric_limits<float>::infinity()});
 }
 
 }  // namespace nuvo

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "fast/camera/camera_tables.h"
 #include "nuvo/geometry/triangle_mesh.h"
 #include "nuvo/math/exact.h"
 
@@ -23,5 +24,22 @@ struct ScaledVector {
     Vector3 value;
     std::int64_t exponent = 0;  ///< of the factor's inverse
 };
+
+/// The function c + a X + b Y of the pixel coordinates X, Y of CameraRays, off by at most e over
+/// the picture, as CameraTriangle has them; e is infinite where floats cannot tell.
+struct PixelFunction {
+    float a = 0;
+    float b = 0;
+    float c = 0;
+    float e = 0;
+};
+/// d.v of the rays' directions d. Counts the roundings of v, and of the exact rays' directions,
+/// which were rounded in other ways.
+PixelFunction along_rays(const CameraRays& camera, const Vector3& v);
+
+/// The record of a triangle of which double arithmetic cannot tell it, and no pixels at all where
+/// the eye lies in its plane or behind a front that alone is visible: from there it is never hit.
+void make_exact_camera_triangle(const CameraTrianglesJob& job, const Triangle& triangle,
+                                bool front_only, CameraTriangle& out, PixelBox& box);
 
 }  // namespace nuvo

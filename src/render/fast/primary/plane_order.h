@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fast/camera/camera_triangles.h"
+#include "fast/camera/exact_planes.h"
 #include "fast/scene/fast_scene.h"
 #include "fast/tile/pair_cache.h"
 
@@ -11,32 +11,24 @@
 
 namespace nuvo {
 
-/// A function c + a X + b Y that is positive where the first of two triangles is nearer, if both
-/// are met, or as near and earlier in the document; off by at most e, infinite where floats cannot
-/// tell.
-struct PlaneOrder {
-    float a = 0;
-    float b = 0;
-    float c = 0;
-    float e = 0;
-};
-
 /// The orders of pairs that were asked for, as far as they are kept. For one thread.
 class PlaneOrders {
   public:
     PlaneOrders(const FastScene& scene, const CameraRays& camera)
         : scene_(scene), camera_(camera) {}
 
-    PlaneOrder between(Slot first, Slot second) {
+    /// A function that is positive where the first of two triangles is nearer, if both are met, or
+    /// as near and earlier in the document.
+    PixelFunction between(Slot first, Slot second) {
         return kept_.of({first, second}, [&] { return order_of(first, second); });
     }
 
   private:
-    PlaneOrder order_of(Slot first, Slot second) const;
+    PixelFunction order_of(Slot first, Slot second) const;
 
     const FastScene& scene_;
     const CameraRays& camera_;
-    PairCache<PlaneOrder> kept_;
+    PairCache<PixelFunction> kept_;
 };
 
 }  // namespace nuvo

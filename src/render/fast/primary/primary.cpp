@@ -38,9 +38,10 @@ class PrimaryTracer {
         : job_(job),
           tile_(tile),
           quadric_hits_(quadrics),
+          view_{job.camera, job.scene.scene().camera.position, job.scene.frame().scale},
           culling_(tile),
           box_maker_(job.camera),
-          triangle_maker_(job.camera, job.scene.scene().camera.position, job.scene.frame().scale),
+          triangle_maker_(view_),
           corners_(job.scene) {
         clear();
     }
@@ -144,9 +145,8 @@ class PrimaryTracer {
         constexpr std::size_t kHalf = TriangleBatch::kSize;
         PixelBox boxes[kBatch];
         for (std::size_t half = 0; half * kHalf < count; ++half)
-            box_maker_.triangles(corners_.corners(half).corner, job_.scene.scene().camera.position,
-                                 job_.scene.frame().scale, boxes + half * kHalf,
-                                 std::min(kHalf, count - half * kHalf));
+            box_maker_.triangles(corners_.corners(half).corner, view_.eye, view_.scale,
+                                 boxes + half * kHalf, std::min(kHalf, count - half * kHalf));
         for (std::size_t i = 0; i < count; ++i) queue_[BoxCulling::place(i)] = boxes[i];
         const std::size_t chosen = choose(count);
         CameraTriangle triangles[kBatch];
@@ -173,9 +173,8 @@ class PrimaryTracer {
         auto [unknown, hidden] = triangle_maker_.make(batch, triangles, TriangleBatch::kSize);
         for (; HWY_UNLIKELY(unknown != 0); unknown &= unknown - 1) {
             const auto i = static_cast<std::size_t>(std::countr_zero(unknown));
-            make_exact_camera_triangle(
-                {job_.camera, job_.scene.scene().camera.position, job_.scene.frame().scale},
-                batch.triangle(i), (batch.front_only >> i & 1) != 0, triangles[i], boxes[i]);
+            make_exact_camera_triangle(view_, batch.triangle(i), (batch.front_only >> i & 1) != 0,
+                                       triangles[i], boxes[i]);
         }
         return hidden;
     }
@@ -275,7 +274,7 @@ class PrimaryTracer {
                 (shown == Ints(static_cast<std::int32_t>(other))).bits() & rest;
             rest &= ~same;
             if (std::popcount(same) < kMany || other >= job_.scene.triangle_end()) continue;
-            const PlaneOrder order = job_.orders.between(slot, other);
+            const PixelFunction order = job_.orders.between(slot, other);
             const float at = order.c + order.a * center_x(t) + order.b * center_y(t);
             const Floats value =
                 mul_add(Floats::load(kOffsets.x[of_tile]), Floats(order.a),
@@ -405,6 +404,7 @@ class PrimaryTracer {
     PrimaryJob& job_;
     MacroTile& tile_;
     MacroQuadrics* quadric_hits_;
+    CameraTrianglesJob view_;
     BoxCulling culling_;
     PixelBoxMaker box_maker_;
     TriangleMaker triangle_maker_;
