@@ -27,13 +27,11 @@ float below(float nearest) {
 }
 float above(float nearest) { return -below(-nearest); }
 
-Bounds3T<float> widened(const Bounds3T<float>& box) {
-    return {{below(box.min.x), below(box.min.y), below(box.min.z)},
-            {above(box.max.x), above(box.max.y), above(box.max.z)}};
-}
-
 Bounds3T<float> local_box(const LocalFrame& frame, const Bounds3& box) {
-    return widened({Vec3<float>(frame.local(box.min)), Vec3<float>(frame.local(box.max))});
+    const Vec3<float> low(frame.local(box.min));
+    const Vec3<float> high(frame.local(box.max));
+    return {{below(low.x), below(low.y), below(low.z)},
+            {above(high.x), above(high.y), above(high.z)}};
 }
 
 // What the octree's construction needs, by slot.

@@ -51,29 +51,24 @@ void TriangleChunk::gather(const FastScene& scene, Slot end, SlotAt&& slot_at) {
     if (rest != 0) batches[(last - first) / TriangleBatch::kSize].fill_up(rest);
 }
 
-void TriangleChunk::fetch(const FastScene& scene, Slot first_slot, Slot last_slot) {
-    slots = nullptr;
-    first = first_slot;
-    last = last_slot;
-    gather(scene, scene.triangle_end(), [](Slot place) { return place; });
-}
-
-void TriangleChunk::fetch(const FastScene& scene, const BigVector<Slot>& list, Slot first_place,
+void TriangleChunk::fetch(const FastScene& scene, const BigVector<Slot>* list, Slot first_place,
                           Slot last_place) {
-    slots = &list;
+    slots = list;
     first = first_place;
     last = last_place;
+    if (list == nullptr) {
+        gather(scene, scene.triangle_end(), [](Slot place) { return place; });
+        return;
+    }
     // Far apart in memory.
-    scene.prefetch({list.data() + first, last - first});
-    gather(scene, last, [&](Slot place) { return list[place]; });
+    scene.prefetch({list->data() + first, last - first});
+    gather(scene, last, [&](Slot place) { return (*list)[place]; });
 }
 
 namespace {
 
-// Calls work(chunk) for parts of `count` places that fetch(chunk, first, last) has filled.
-template <typename Fetch>
-void for_each_chunk_of(std::size_t count, int threads, Fetch&& fetch,
-                       const std::function<void(const TriangleChunk&)>& work) {
+void for_each_chunk_of(const FastScene& scene, const BigVector<Slot>* list, std::size_t count,
+                       int threads, const std::function<void(const TriangleChunk&)>& work) {
     // A thread takes so many chunks at a time: few, so that a small scene's can be shared.
     constexpr std::size_t kChunksAtOnce = 8;
     constexpr std::size_t kStep = kChunksAtOnce * TriangleChunk::kTriangles;
@@ -81,8 +76,8 @@ void for_each_chunk_of(std::size_t count, int threads, Fetch&& fetch,
         TriangleChunk chunk;
         const std::size_t last = std::min(count, (i + 1) * kStep);
         for (std::size_t first = i * kStep; first < last; first += TriangleChunk::kTriangles) {
-            fetch(
-                chunk, static_cast<Slot>(first),
+            chunk.fetch(
+                scene, list, static_cast<Slot>(first),
                 static_cast<Slot>(std::min<std::size_t>(last, first + TriangleChunk::kTriangles)));
             work(chunk);
         }
@@ -93,20 +88,12 @@ void for_each_chunk_of(std::size_t count, int threads, Fetch&& fetch,
 
 void for_each_chunk(const FastScene& scene, int threads,
                     const std::function<void(const TriangleChunk&)>& work) {
-    for_each_chunk_of(
-        scene.triangle_end(), threads,
-        [&](TriangleChunk& chunk, Slot first, Slot last) { chunk.fetch(scene, first, last); },
-        work);
+    for_each_chunk_of(scene, nullptr, scene.triangle_end(), threads, work);
 }
 
 void for_each_chunk(const FastScene& scene, const BigVector<Slot>& slots, Slot count, int threads,
                     const std::function<void(const TriangleChunk&)>& work) {
-    for_each_chunk_of(
-        count, threads,
-        [&](TriangleChunk& chunk, Slot first, Slot last) {
-            chunk.fetch(scene, slots, first, last);
-        },
-        work);
+    for_each_chunk_of(scene, &slots, count, threads, work);
 }
 
 void for_each_quadric_part(const FastScene& scene, int threads,

@@ -43,9 +43,11 @@ struct TriangleChunk {
     static constexpr Slot kTriangles = 256;
 
     /// Fetches the triangles of the slots [first, last).
-    void fetch(const FastScene& scene, Slot first_slot, Slot last_slot);
-    /// Fetches those of places [first, last) of a list of slots.
-    void fetch(const FastScene& scene, const BigVector<Slot>& list, Slot first_place,
+    void fetch(const FastScene& scene, Slot first_slot, Slot last_slot) {
+        fetch(scene, nullptr, first_slot, last_slot);
+    }
+    /// Fetches those of places [first, last) of a list of slots; null: of all triangles.
+    void fetch(const FastScene& scene, const BigVector<Slot>* list, Slot first_place,
                Slot last_place);
 
     Slot slot(Slot place) const { return slots ? (*slots)[place] : place; }
