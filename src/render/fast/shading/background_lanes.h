@@ -23,6 +23,12 @@ namespace nuvo::HWY_NAMESPACE {
 struct PixelColors {
     Floats channel[3];
     Floats error;
+
+    /// Takes another's in the lanes of the mask.
+    HWY_INLINE void take(const RayMask& mask, const PixelColors& other) {
+        for (int c = 0; c < 3; ++c) channel[c] = select(mask, other.channel[c], channel[c]);
+        error = select(mask, other.error, error);
+    }
 };
 
 /// The sine of the rays' height, d_y / |d|, within ShadingRays::sine_error.
@@ -70,9 +76,7 @@ HWY_INLINE PixelColors gradient(const ShadingBackground& background, const Float
     constexpr float kPi = 3.14159265F;
     const PixelColors ground =
         banded(background.ground, Floats(kPi) - from_zenith, half + Floats(roundings(8)));
-    const RayMask below = y < Floats(0.0F);
-    for (int c = 0; c < 3; ++c) out.channel[c] = select(below, ground.channel[c], out.channel[c]);
-    out.error = select(below, ground.error, out.error);
+    out.take(y < Floats(0.0F), ground);
     out.error = select(abs(y) > error, out.error,
                        Floats(std::numeric_limits<float>::infinity()));  // the horizon
     return out;

@@ -31,41 +31,29 @@ class TileFinisher {
         for (int b = 0; b < kTileBlocks; ++b) {
             const std::uint32_t inside = tile_.inside[b];
             const std::uint32_t hit = tile_.hit[b] & inside;
-            uncertain[b] = 0;
-            if (inside == 0) continue;
-            if (hit == 0 && in_range) {
-                const PixelColors pixels =
-                    background_colors(tables_, BlockDirections(tables_, tile_, b));
-                const std::uint32_t open = quantize<false>(b, pixels) & inside;
-                uncertain[b] = static_cast<std::uint16_t>(open);
-                any |= open;
-                continue;
+            std::uint32_t open = 0;
+            if (inside != 0 && hit == 0 && in_range) {
+                open = quantize<false>(
+                    b, background_colors(tables_, BlockDirections(tables_, tile_, b)));
+            } else if (inside != 0) {
+                PixelColors pixels;
+                if (hit != 0) pixels = surface_colors(b, hit);
+                if (hit != inside) {
+                    PixelColors behind =
+                        background_colors(tables_, BlockDirections(tables_, tile_, b));
+                    if (hit != 0) behind.take(RayMask::from_bits(hit), pixels);
+                    pixels = behind;
+                }
+                open = quantize<true>(b, pixels) | (tables_.sound ? 0U : ~0U);
             }
-            PixelColors pixels;
-            if (hit != 0) pixels = surface_colors(b, hit);
-            if (hit != inside) {
-                const PixelColors behind =
-                    background_colors(tables_, BlockDirections(tables_, tile_, b));
-                pixels = hit == 0 ? behind : merged(RayMask::from_bits(hit), pixels, behind);
-            }
-            const std::uint32_t open =
-                (quantize<true>(b, pixels) | (tables_.sound ? 0U : ~0U)) & inside;
-            uncertain[b] = static_cast<std::uint16_t>(open);
-            any |= open;
+            uncertain[b] = static_cast<std::uint16_t>(open & inside);
+            any |= open & inside;
         }
         write(image);
         return any != 0;
     }
 
   private:
-    static HWY_INLINE PixelColors merged(const RayMask& mask, const PixelColors& a,
-                                         const PixelColors& b) {
-        PixelColors out;
-        for (int c = 0; c < 3; ++c) out.channel[c] = select(mask, a.channel[c], b.channel[c]);
-        out.error = select(mask, a.error, b.error);
-        return out;
-    }
-
     // A row of the table of materials, or a different one in each lane.
     struct MaterialLanes {
         Floats diffuse[3];
