@@ -1,4 +1,4 @@
-#include "fast/shading/shading_cosines.h"
+#include "fast/shading/shading_tables.h"
 
 #include <cmath>
 #include <limits>
@@ -62,7 +62,7 @@ class TriangleFiller {
     void enter(std::uint32_t object) {
         const Object& shown = tables_.scene.scene().objects[object];
         mesh_ = &std::get<TriangleMesh>(shown.shape);
-        word_ = surface_word(tables_, shown);
+        word_ = tables_.word_of(shown);
         two_sided_ = !shown.solid;
         offset_ = mesh_->normals.empty() ? 0 : tables_.triangles.smooth_offsets[object];
     }
@@ -159,7 +159,7 @@ class TriangleFiller {
     std::uint32_t offset_ = 0;
 };
 
-void fill_triangles_in(ShadingTables& tables, const TriangleChunk& chunk) {
+void fill_triangles(ShadingTables& tables, const TriangleChunk& chunk) {
     TriangleFiller(tables).run(chunk);
 }
 
@@ -171,8 +171,8 @@ HWY_AFTER_NAMESPACE();
 
 namespace nuvo {
 
-void fill_triangles(ShadingTables& tables, const TriangleChunk& chunk, InstructionSet isa) {
-    (NUVO_FOR_ISA(isa, fill_triangles_in))(tables, chunk);
+void ShadingTables::take(const TriangleChunk& chunk) {
+    (NUVO_FOR_ISA(isa, fill_triangles))(*this, chunk);
 }
 
 }  // namespace nuvo

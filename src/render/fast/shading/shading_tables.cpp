@@ -6,7 +6,6 @@
 #include <string_view>
 #include <unordered_map>
 
-#include "fast/shading/shading_cosines.h"
 #include "fast/simd/estimate_error.h"
 #include "nuvo/geometry/predicates.h"
 #include "nuvo/render/shading.h"
@@ -197,7 +196,6 @@ void place_light(const ShadingTables& tables, const Light& exact, ShadingLight& 
 void aim_spot(const Light& exact, ShadingLight& light) {
     if (exact.direction == Vector3{}) light.dead = true;
     for (int axis = 0; axis < 3; ++axis) light.axis[axis] = rounded(exact.direction[axis]);
-    light.beam_width = rounded(exact.beam_width);
     light.cut_off = rounded(exact.cut_off_angle);
     light.inverse_width = exact.beam_width < exact.cut_off_angle
                               ? rounded(1 / (exact.cut_off_angle - exact.beam_width))
@@ -347,8 +345,8 @@ void add_background(ShadingTables& tables) {
 
 }  // namespace
 
-SurfaceWord surface_word(const ShadingTables& tables, const Object& object) {
-    SurfaceWord word = tables.material_words[object.material];
+SurfaceWord ShadingTables::word_of(const Object& object) const {
+    SurfaceWord word = material_words[object.material];
     if (const auto* mesh = std::get_if<TriangleMesh>(&object.shape)) {
         if (!mesh->normals.empty()) word |= kSmoothFlag;
         if (!mesh->colors.empty()) word |= kColoredFlag;
@@ -377,8 +375,6 @@ void ShadingTables::fill(const TriangleSet& some, int threads) {
                    [&](const TriangleChunk& chunk) { take(chunk); });
     triangles.known.add(slots);
 }
-
-void ShadingTables::take(const TriangleChunk& chunk) { fill_triangles(*this, chunk, isa); }
 
 std::size_t ShadingTriangles::memory_bytes() const {
     std::size_t bytes = known.memory_bytes() + words.size() * sizeof(SurfaceWord) +

@@ -71,9 +71,8 @@ struct ShadingLight {
     float tint_most = 1;               ///< the largest channel
     float attenuation[3] = {1, 0, 0};  ///< in local lengths
     float radius = 0;                  ///< local
-    float beam_width = 0;
     float cut_off = 0;
-    float inverse_width = 0;  ///< 1 / (cut_off - beam_width); infinite: a sharp edge
+    float inverse_width = 0;  ///< 1 / (cut_off - the beam's width); infinite: a sharp edge
     float cosine_error = 0;   ///< of ShadingTriangles::cosines: absolute, beside one rounding
 };
 
@@ -150,10 +149,13 @@ struct ShadingTables {
     ShadingTables(const FastScene& scene, const CameraRays& camera, const CameraTables& quadrics,
                   InstructionSet isa, std::optional<ShadingTriangles> kept = std::nullopt);
 
+    /// The word of that object's primitives.
+    SurfaceWord word_of(const Object& object) const;
+
     /// What is not known yet of some triangles.
     void fill(const TriangleSet& some, int threads);
 
-    /// For fill_tables(); by several threads at a time.
+    /// For fill_tables(); by several threads at a time. (shading_cosines.cpp)
     void take(const TriangleChunk& chunk);
     void take_quadrics(QuadricSpan) {}
     void finish() { triangles.known.add_all(); }
