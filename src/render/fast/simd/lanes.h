@@ -207,18 +207,31 @@ struct Lanes : LaneShape<T, N> {
         return v;
     }
 
-#define NUVO_LANES_BINARY(op, function)                            \
-    friend HWY_INLINE Lanes operator op(Lanes a, const Lanes& b) { \
-        for (std::size_t i = 0; i < Shape::kParts; ++i)            \
-            a.part[i] = hn::function(a.part[i], b.part[i]);        \
-        return a;                                                  \
+#define NUVO_LANES_UNARY(name, function)                                                     \
+    friend HWY_INLINE Lanes name(Lanes a) {                                                  \
+        for (std::size_t i = 0; i < Shape::kParts; ++i) a.part[i] = hn::function(a.part[i]); \
+        return a;                                                                            \
     }
-    NUVO_LANES_BINARY(+, Add)
-    NUVO_LANES_BINARY(-, Sub)
-    NUVO_LANES_BINARY(*, Mul)
-    NUVO_LANES_BINARY(/, Div)
-    NUVO_LANES_BINARY(&, And)
-    NUVO_LANES_BINARY(|, Or)
+    NUVO_LANES_UNARY(operator-, Neg)
+    NUVO_LANES_UNARY(abs, Abs)
+    NUVO_LANES_UNARY(sqrt, Sqrt)
+    NUVO_LANES_UNARY(floor, Floor)
+#undef NUVO_LANES_UNARY
+#define NUVO_LANES_BINARY(name, function)                   \
+    friend HWY_INLINE Lanes name(Lanes a, const Lanes& b) { \
+        for (std::size_t i = 0; i < Shape::kParts; ++i)     \
+            a.part[i] = hn::function(a.part[i], b.part[i]); \
+        return a;                                           \
+    }
+    NUVO_LANES_BINARY(operator+, Add)
+    NUVO_LANES_BINARY(operator-, Sub)
+    NUVO_LANES_BINARY(operator*, Mul)
+    NUVO_LANES_BINARY(operator/, Div)
+    NUVO_LANES_BINARY(operator&, And)
+    NUVO_LANES_BINARY(operator|, Or)
+    NUVO_LANES_BINARY(operator>>, Shr)
+    NUVO_LANES_BINARY(min, Min)
+    NUVO_LANES_BINARY(max, Max)
 #undef NUVO_LANES_BINARY
 #define NUVO_LANES_COMPARE(op, function)                                 \
     friend HWY_INLINE Mask operator op(const Lanes& a, const Lanes& b) { \
@@ -234,35 +247,6 @@ struct Lanes : LaneShape<T, N> {
     NUVO_LANES_COMPARE(==, Eq)
     NUVO_LANES_COMPARE(!=, Ne)
 #undef NUVO_LANES_COMPARE
-    friend HWY_INLINE Lanes operator-(Lanes a) {
-        for (std::size_t i = 0; i < Shape::kParts; ++i) a.part[i] = hn::Neg(a.part[i]);
-        return a;
-    }
-    friend HWY_INLINE Lanes min(Lanes a, const Lanes& b) {
-        for (std::size_t i = 0; i < Shape::kParts; ++i) a.part[i] = hn::Min(a.part[i], b.part[i]);
-        return a;
-    }
-    friend HWY_INLINE Lanes max(Lanes a, const Lanes& b) {
-        for (std::size_t i = 0; i < Shape::kParts; ++i) a.part[i] = hn::Max(a.part[i], b.part[i]);
-        return a;
-    }
-    friend HWY_INLINE Lanes abs(Lanes a) {
-        for (std::size_t i = 0; i < Shape::kParts; ++i) a.part[i] = hn::Abs(a.part[i]);
-        return a;
-    }
-    friend HWY_INLINE Lanes sqrt(Lanes a) {
-        for (std::size_t i = 0; i < Shape::kParts; ++i) a.part[i] = hn::Sqrt(a.part[i]);
-        return a;
-    }
-    friend HWY_INLINE Lanes operator>>(Lanes a, const Lanes& bits) {
-        for (std::size_t i = 0; i < Shape::kParts; ++i)
-            a.part[i] = hn::Shr(a.part[i], bits.part[i]);
-        return a;
-    }
-    friend HWY_INLINE Lanes floor(Lanes a) {
-        for (std::size_t i = 0; i < Shape::kParts; ++i) a.part[i] = hn::Floor(a.part[i]);
-        return a;
-    }
     /// a * b + c, with one rounding or two.
     friend HWY_INLINE Lanes mul_add(Lanes a, const Lanes& b, const Lanes& c) {
         for (std::size_t i = 0; i < Shape::kParts; ++i)
@@ -309,7 +293,6 @@ using Ints = Lanes<std::int32_t, 16>;
 using OctantFloats = Lanes<float, 8>;  ///< one number for each of 8 octants
 using Doubles = Lanes<double, 16>;     ///< Floats' lanes
 
-/// Rounded to the nearest floats.
 /// Doubles of one register rounded to the nearest float, beyond floats infinite. Of these the
 /// portable target would make the largest float, which is no bound.
 template <typename Tag, typename Vector>
@@ -320,6 +303,7 @@ HWY_INLINE auto to_floats(Tag tag, const Vector& v) {
     return hn::DemoteTo(tag, v);
 #endif
 }
+/// Rounded to the nearest floats.
 template <std::size_t N>
 HWY_INLINE Lanes<float, N> floats_from(const Lanes<double, N>& v) {
     using Shape = LaneShape<float, N>;
