@@ -75,7 +75,7 @@ class PrimaryTracer {
     static_assert(kBatch == CornerFetch::kBatch && kBatch == SphereConics::kMost);
     // Up to so many blocks are tested one by one: from 2 to 7 the time was the same.
     static constexpr int kFewBlocks = 4;
-    const Ints none_{static_cast<std::int32_t>(kNoSlot)};
+    const Ints none_{kNoSlot};
 
     // Lanes outside of the picture get a hit nearer than any.
     void clear() {
@@ -105,9 +105,7 @@ class PrimaryTracer {
         return inside;
     }
 
-    std::int32_t* slots(int b) {
-        return reinterpret_cast<std::int32_t*>(tile_.slot) + b * kBlockLanes;
-    }
+    Slot* slots(int b) { return tile_.slot + b * kBlockLanes; }
 
     void finish() {
         for (int b = 0; b < MacroTile::kBlocks; ++b)
@@ -270,8 +268,7 @@ class PrimaryTracer {
         const Ints shown = Ints::load(slots(b));
         for (std::uint32_t rest = open & inside; rest != 0;) {
             const Slot other = tile_.slot[b * kBlockLanes + std::countr_zero(rest)];
-            const std::uint32_t same =
-                (shown == Ints(static_cast<std::int32_t>(other))).bits() & rest;
+            const std::uint32_t same = (shown == Ints(other)).bits() & rest;
             rest &= ~same;
             if (std::popcount(same) < kMany || other >= job_.scene.triangle_end()) continue;
             const PixelFunction order = job_.orders.between(slot, other);

@@ -71,9 +71,7 @@ struct Candidates {
     HWY_INLINE void store(MacroTile& tile, int block, const RayMask& mask, Slot slot) const {
         low.store(tile.near_low + block * kBlockLanes, mask);
         high.store(tile.near_high + block * kBlockLanes, mask);
-        Ints(static_cast<std::int32_t>(slot))
-            .store(reinterpret_cast<std::int32_t*>(tile.slot) + block * kBlockLanes,
-                   mask_for<std::int32_t>(mask));
+        Ints(slot).store(tile.slot + block * kBlockLanes, mask_for<std::int32_t>(mask));
     }
 
     Floats low;

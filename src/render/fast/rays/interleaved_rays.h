@@ -159,9 +159,7 @@ class InterleavedRays {
         const Floats entry = first.permuted(order);
         RayState::Level& level = *state.top;
         entry.store(level.entry);
-        Ints::load(reinterpret_cast<const std::int32_t*>(node.child))
-            .permuted(order)
-            .store(reinterpret_cast<std::int32_t*>(level.child));
+        Ints::load(node.child).permuted(order).store(level.child);
         level.waiting = (entry <= last.permuted(order)).bits();
         state.top += static_cast<std::ptrdiff_t>(level.waiting != 0);
     }

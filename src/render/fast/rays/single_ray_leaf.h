@@ -125,8 +125,7 @@ HWY_INLINE LeafVector<N> load_corner(const std::uint16_t* corners, std::size_t s
 template <std::size_t N>
 HWY_INLINE LaneMask<float, N> front_only(const Slot* slots) {
     using LeafInts = Lanes<std::int32_t, N>;
-    return mask_for<float>(LeafInts::load(reinterpret_cast<const std::int32_t*>(slots)) <
-                           LeafInts(0));
+    return mask_for<float>(LeafInts::load(slots) < LeafInts(0));
 }
 
 /// Triangles whose nine coordinates stand `stride` apart from `corners` on. The sum of the edge

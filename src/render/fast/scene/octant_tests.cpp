@@ -81,10 +81,8 @@ struct Cleared {
 // 16 of the items; the last one over again where there are fewer.
 HWY_INLINE Ints load_items(std::span<const std::uint32_t> items, std::size_t begin,
                            std::uint32_t first, std::int32_t stride) {
-    if (items.size() - begin >= 16) {
-        const auto* const at = reinterpret_cast<const std::int32_t*>(items.data() + begin);
-        return (Ints::load(at) - Ints(static_cast<std::int32_t>(first))) * Ints(stride);
-    }
+    if (items.size() - begin >= 16)
+        return (Ints::load(items.data() + begin) - Ints(first)) * Ints(stride);
     std::int32_t index[16];
     const std::size_t last = items.size() - 1;
     for (std::size_t i = 0; i < 16; ++i)

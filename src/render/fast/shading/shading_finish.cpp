@@ -91,12 +91,11 @@ class TileFinisher {
             return;
         }
         const SurfaceWord* words = scratch_.word + b * kBlockLanes;
-        const Ints mine = Ints::load(reinterpret_cast<const std::int32_t*>(words)) &
-                          Ints(static_cast<std::int32_t>(kMaterialMask));
+        const Ints mine = Ints::load(words) & Ints(kMaterialMask);
         bool first = true;
         for (std::uint32_t rest = hit; rest != 0;) {
             const SurfaceWord material = words[std::countr_zero(rest)] & kMaterialMask;
-            const auto same = mine == Ints(static_cast<std::int32_t>(material));
+            const auto same = mine == Ints(material);
             if (first)
                 take(tables_.materials[material], out);
             else

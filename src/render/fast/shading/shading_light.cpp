@@ -93,9 +93,8 @@ class LightSampler {
     // gain n.l of flat triangles. Directional: the table's rounding. Else the table's n.(L - a)
     // over |L - P|: also that of the product and those of the inverse length.
     HWY_INLINE Lit flat(int first, const Toward& toward) const {
-        const Ints slot = Ints::load(reinterpret_cast<const std::int32_t*>(tile_.slot) + first);
-        const auto known = (slot > Ints(-1)) &
-                           (slot < Ints(static_cast<std::int32_t>(tables_.scene.triangle_end())));
+        const Ints slot = Ints::load(tile_.slot + first);
+        const auto known = (slot > Ints(-1)) & (slot < Ints(tables_.scene.triangle_end()));
         const Floats cosine = Floats::gather(cosines_.data(), select(known, slot, Ints(0)));
         if constexpr (kDirectional) {
             return {cosine, mul_add(abs(cosine), Floats(roundings(1) + tint_rounding_),
@@ -144,22 +143,19 @@ class LightSampler {
     }
     HWY_INLINE Floats of_materials(int first, float ShadingMaterial::*member) const {
         if (tables_.uniform) return Floats(tables_.materials[0].*member);
-        const Ints word = Ints::load(reinterpret_cast<const std::int32_t*>(scratch_.word) + first);
+        const Ints word = Ints::load(scratch_.word + first);
         constexpr int kFloatsLog2 = 4;
         static_assert(sizeof(ShadingMaterial) == sizeof(float) << kFloatsLog2);
-        return Floats::gather(
-            &(tables_.materials[0].*member),
-            shift_left<kFloatsLog2>(word & Ints(static_cast<std::int32_t>(kMaterialMask))));
+        return Floats::gather(&(tables_.materials[0].*member),
+                              shift_left<kFloatsLog2>(word & Ints(kMaterialMask)));
     }
 
     HWY_INLINE void add_lobe(int first, const Toward& toward, const Factor* factor,
                              RayMask& wanted) const {
         RayMask shiny = RayMask::from_bits((tables_.common_word & kSpecularFlag) ? 0xffff : 0);
         if (!tables_.uniform) {
-            const Ints word =
-                Ints::load(reinterpret_cast<const std::int32_t*>(scratch_.word) + first);
-            shiny =
-                mask_for<float>((word & Ints(static_cast<std::int32_t>(kSpecularFlag))) != Ints(0));
+            const Ints word = Ints::load(scratch_.word + first);
+            shiny = mask_for<float>((word & Ints(kSpecularFlag)) != Ints(0));
         }
         Lobe lobe{Floats(0.0F), Floats(0.0F), shiny};
         if (shiny.any()) {

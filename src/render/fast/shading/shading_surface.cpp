@@ -23,7 +23,7 @@ class SurfaceFiller {
         : tables_(tables),
           tile_(tile),
           scratch_(scratch),
-          triangle_end_(static_cast<std::int32_t>(tables.scene.triangle_end())) {}
+          triangle_end_(tables.scene.triangle_end()) {}
 
     void run() {
         for (int b = 0; b < kTileBlocks; ++b) {
@@ -43,7 +43,7 @@ class SurfaceFiller {
         clear_sums(first);
         const BlockDirections directions(tables_, tile_, b);
         fill_points(first, directions);
-        const Ints slot = Ints::load(reinterpret_cast<const std::int32_t*>(tile_.slot) + first);
+        const Ints slot = Ints::load(tile_.slot + first);
         const auto triangle = (slot > Ints(-1)) & (slot < Ints(triangle_end_));
         const std::uint32_t triangles = triangle_end_ == 0 ? 0 : triangle.bits();
         std::uint32_t special = hit & ~triangles;  // lanes of smooth_normals.h
@@ -54,7 +54,7 @@ class SurfaceFiller {
                 word = Ints::gather(
                     reinterpret_cast<const std::int32_t*>(tables_.triangles.words.data()),
                     select(triangle, slot, Ints(0)));
-            word.store(reinterpret_cast<std::int32_t*>(scratch_.word) + first);
+            word.store(scratch_.word + first);
             special |= flagged(word, kSmoothFlag | kColoredFlag) & triangles;
             unlit = flagged(word, kUnlitFlag) & triangles;
         }
@@ -62,17 +62,14 @@ class SurfaceFiller {
             gather_normals(first, select(triangle, slot, Ints(0)));
         if (special != 0) {
             SmoothNormalLanes(tables_, tile_, scratch_, directions, b).fill(special);
-            if (!tables_.uniform)
-                unlit = flagged(
-                    Ints::load(reinterpret_cast<const std::int32_t*>(scratch_.word) + first),
-                    kUnlitFlag);
+            if (!tables_.uniform) unlit = flagged(Ints::load(scratch_.word + first), kUnlitFlag);
         }
         if ((tables_.any_flags & kSpecularFlag) != 0) fill_view(first, directions);
         scratch_.lit_material[b] = static_cast<std::uint16_t>(hit & ~unlit);
     }
 
     static HWY_INLINE std::uint32_t flagged(const Ints& word, SurfaceWord flags) {
-        return ((word & Ints(static_cast<std::int32_t>(flags))) != Ints(0)).bits();
+        return ((word & Ints(flags)) != Ints(0)).bits();
     }
 
     HWY_INLINE void clear_sums(int first) {
@@ -122,7 +119,7 @@ class SurfaceFiller {
     const ShadingTables& tables_;
     Tile& tile_;
     ShadingScratch& scratch_;
-    std::int32_t triangle_end_;
+    Slot triangle_end_;
 };
 
 void fill_surface(const ShadingTables& tables, Tile& tile, ShadingScratch& scratch) {

@@ -94,11 +94,10 @@ class SmoothNormalLanes {
                                                    static_cast<double>(center_y_))) {}
 
     HWY_NOINLINE void fill(std::uint32_t lanes) {
-        const Ints slots = Ints::load(reinterpret_cast<const std::int32_t*>(tile_.slot) + first_);
+        const Ints slots = Ints::load(tile_.slot + first_);
         while (lanes != 0) {
             const Slot slot = tile_.slot[first_ + std::countr_zero(lanes)];
-            const std::uint32_t same =
-                (slots == Ints(static_cast<std::int32_t>(slot))).bits() & lanes;
+            const std::uint32_t same = (slots == Ints(slot)).bits() & lanes;
             lanes &= ~same;
             lanes_ = RayMask::from_bits(same);
             bits_ = same;
@@ -318,9 +317,7 @@ class SmoothNormalLanes {
     HWY_INLINE void fill_round(Slot slot, const SeenQuadric& seen) {
         if (!tables_.uniform) {
             const SurfaceWord word = tables_.material_words[seen.sphere->material];
-            Ints(static_cast<std::int32_t>(word))
-                .store(reinterpret_cast<std::int32_t*>(scratch_.word) + first_,
-                       mask_for<std::int32_t>(lanes_));
+            Ints(word).store(scratch_.word + first_, mask_for<std::int32_t>(lanes_));
         }
         if (seen.map != nullptr)
             fill_ball(*seen.map, *seen.sphere);

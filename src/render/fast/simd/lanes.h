@@ -96,6 +96,20 @@ struct Lanes : LaneShape<T, N> {
     HWY_INLINE Lanes(T value) {  // NOLINT(google-explicit-constructor): reads like arithmetic
         for (std::size_t i = 0; i < Shape::kParts; ++i) part[i] = hn::Set(Tag(), value);
     }
+    /// Of numbers without sign these take and give the bits.
+    HWY_INLINE Lanes(std::uint32_t value) requires(std::is_same_v<T, std::int32_t>)  // NOLINT
+        : Lanes(static_cast<T>(value)) {}
+    static HWY_INLINE Lanes
+    load(const std::uint32_t* from) requires(std::is_same_v<T, std::int32_t>) {
+        return load(reinterpret_cast<const T*>(from));
+    }
+    HWY_INLINE void store(std::uint32_t* to) const requires(std::is_same_v<T, std::int32_t>) {
+        store(reinterpret_cast<T*>(to));
+    }
+    HWY_INLINE void store(std::uint32_t* to, const Mask& mask) const
+        requires(std::is_same_v<T, std::int32_t>) {
+        store(reinterpret_cast<T*>(to), mask);
+    }
     /// `from` need not be aligned.
     static HWY_INLINE Lanes load(const T* from) {
         Lanes v;
@@ -178,14 +192,15 @@ struct Lanes : LaneShape<T, N> {
     HWY_INLINE Lanes permuted(const Lanes<std::int32_t, N>& index) const requires(sizeof(T) == 4) {
         Lanes v;
         if constexpr (Shape::kParts == 1) {
-            const auto wrapped = HWY_TARGET == HWY_AVX3 && !HWY_IS_DEBUG_BUILD
-                                     ? index.part[0]  // as the instruction does
-                                     : (index & Lanes<std::int32_t, N>(N - 1)).part[0];
+            const auto wrapped =
+                HWY_TARGET == HWY_AVX3 && !HWY_IS_DEBUG_BUILD
+                    ? index.part[0]  // as the instruction does
+                    : (index & Lanes<std::int32_t, N>(std::int32_t{N - 1})).part[0];
             v.part[0] = hn::TableLookupLanes(part[0], hn::IndicesFromVec(Tag(), wrapped));
         } else {
             alignas(64) T values[N];
             store(values);
-            v = gather(values, index & Lanes<std::int32_t, N>(N - 1));
+            v = gather(values, index & Lanes<std::int32_t, N>(std::int32_t{N - 1}));
         }
         return v;
     }
