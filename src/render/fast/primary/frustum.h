@@ -97,8 +97,7 @@ class Frustum {
         }
         Boxes boxes;
         for (int axis = 0; axis < 3; ++axis) {
-            constexpr std::uint32_t kUpper[3] = {0xaa, 0xcc, 0xf0};
-            const auto upper = LaneMask<float, 8>::from_bits(kUpper[axis]);
+            const auto upper = upper_octants(axis);
             const float a = low[axis];
             const float b = cut[axis];
             const float c = high[axis];
@@ -231,24 +230,19 @@ class Frustum {
 template <typename IsOpen, typename Leaf>
 HWY_INLINE void walk_frustum(const CompactOctree& octree, const Frustum& frustum, IsOpen&& is_open,
                              Leaf&& leaf) {
-    struct alignas(32) Voxel {
-        float face[8];
-    };
     struct Place {
         float nearest;
         std::uint32_t node;
         BlockRange range;
     };
-    constexpr int kStack = 7 * CompactOctree::kMaxDepth + 1;
     constexpr unsigned kLate = 8;
-    Voxel voxels[kStack];
-    Place places[kStack];
+    StackedVoxel voxels[kWalkStack];
+    Place places[kWalkStack];
     const CompactNode* late[kLate] = {};
     unsigned next_late = 0;
     const CompactNode* const nodes = octree.nodes.data();
     const std::uint32_t* const items = octree.items.data();
-    const auto& [low, high] = octree.bounds;
-    Voxel voxel{{low.x, low.y, low.z, 0, high.x, high.y, high.z, 0}};
+    StackedVoxel voxel(octree.bounds);
     std::uint32_t at = 0;
     int waiting = 0;
     for (;;) {
@@ -263,24 +257,17 @@ HWY_INLINE void walk_frustum(const CompactOctree& octree, const Frustum& frustum
         } else {
             hwy::Prefetch(nodes + node.first_child());
             Frustum::Seen seen;
-            std::uint32_t ahead = frustum.sees(voxel.face, node.cut, voxel.face + 4, seen);
-            ahead = flipped(ahead & node.mask(), frustum.flip());
-            const OctantFloats faces = OctantFloats::load(voxel.face);
-            const OctantFloats cut = OctantFloats::load_repeated(node.cut);
-            // The farthest first, so that the nearest is taken up next.
-            while (ahead != 0) {
-                const auto order = static_cast<unsigned>(31 - std::countl_zero(ahead));
-                const unsigned octant = order ^ frustum.flip();
-                ahead ^= 1U << order;
-                // Upper on an axis: the cut is the low face; else the high one.
-                const std::uint32_t moved = octant | (~octant & 7) << 4;
-                select(LaneMask<float, 8>::from_bits(moved), cut, faces)
-                    .store(voxels[waiting].face);
-                places[waiting++] = {
-                    seen.nearest[octant],
-                    node.child(octant),
-                    {static_cast<std::uint32_t>(static_cast<std::int32_t>(seen.range[octant]))}};
-            }
+            const std::uint32_t seen_octants =
+                frustum.sees(voxel.face, node.cut, voxel.face + 4, seen);
+            from_far_to_near(seen_octants & node.mask(), frustum.flip(), voxel, node,
+                             [&](unsigned octant, const OctantFloats& faces) HWY_ATTR {
+                                 faces.store(voxels[waiting].face);
+                                 places[waiting++] = {
+                                     seen.nearest[octant],
+                                     node.child(octant),
+                                     {static_cast<std::uint32_t>(
+                                         static_cast<std::int32_t>(seen.range[octant]))}};
+                             });
         }
         do {
             if (waiting == 0) {

@@ -28,6 +28,12 @@
 HWY_BEFORE_NAMESPACE();
 namespace nuvo::HWY_NAMESPACE {
 
+/// The octants on the upper side of the cut of an axis.
+HWY_INLINE LaneMask<float, 8> upper_octants(int axis) {
+    constexpr std::uint32_t kUpper[3] = {0xaa, 0xcc, 0xf0};
+    return LaneMask<float, 8>::from_bits(kUpper[axis]);
+}
+
 /// The slab tests of one beam. kStraddles: on some axis the directions have both signs.
 template <bool kStraddles>
 class BeamSlabs {
@@ -90,9 +96,7 @@ class BeamSlabs {
         exit_add_[axis] = bounds_below ? t_end_ : 0;
     }
     static HWY_INLINE OctantFloats by_octant(int axis, float lower, float upper) {
-        constexpr std::uint32_t kUpper[3] = {0xaa, 0xcc, 0xf0};
-        return select(LaneMask<float, 8>::from_bits(kUpper[axis]), OctantFloats(upper),
-                      OctantFloats(lower));
+        return select(upper_octants(axis), OctantFloats(upper), OctantFloats(lower));
     }
 
     float t_end_;
@@ -114,52 +118,64 @@ HWY_INLINE std::uint32_t flipped(std::uint32_t bits, unsigned flip) {
     return bits;
 }
 
+/// A voxel on the stack of a walk: its low faces, a word of no meaning, its high faces and another,
+/// so that it is written and read by whole registers.
+struct alignas(32) StackedVoxel {
+    explicit StackedVoxel(const Bounds3T<float>& box)
+        : face{box.min.x, box.min.y, box.min.z, 0, box.max.x, box.max.y, box.max.z, 0} {}
+    StackedVoxel() = default;
+    float face[8];
+};
+/// How many voxels wait at most.
+inline constexpr int kWalkStack = 7 * CompactOctree::kMaxDepth + 1;
+
+/// Calls put(octant, faces), with the faces of a StackedVoxel, for some octants of a voxel, the
+/// farthest first, so that of a stack the nearest is taken next. Octant o ^ flip for o = 0..7 is
+/// from near to far.
+template <typename Put>
+HWY_INLINE void from_far_to_near(std::uint32_t octants, unsigned flip, const StackedVoxel& voxel,
+                                 const CompactNode& node, Put&& put) {
+    const OctantFloats faces = OctantFloats::load(voxel.face);
+    const OctantFloats cut = OctantFloats::load_repeated(node.cut);
+    for (std::uint32_t ahead = flipped(octants, flip); ahead != 0;) {
+        const auto order = static_cast<unsigned>(31 - std::countl_zero(ahead));
+        const unsigned octant = order ^ flip;
+        ahead ^= 1U << order;
+        // Upper on an axis: the cut is the low face; else the high one.
+        const std::uint32_t moved = octant | (~octant & 7) << 4;
+        put(octant, select(LaneMask<float, 8>::from_bits(moved), cut, faces));
+    }
+}
+
 /// Calls `leaf(items, count, entry)` for each leaf that the beam may meet, in the beam's order,
 /// until it returns true; then returns true. `skip(entry)`: whether nothing from t = entry on
 /// matters.
 template <bool kStraddles, typename Skip, typename Leaf>
 HWY_INLINE bool walk_beam(const CompactOctree& octree, const BeamSlabs<kStraddles>& slabs,
                           Skip&& skip, Leaf&& leaf) {
-    // On the stack a voxel is its low faces, a word of no meaning, its high faces and another:
-    // apart from the rest, so that it is written and read by whole registers.
-    struct alignas(32) Voxel {
-        float face[8];
-    };
     struct Place {
         float t;
         std::uint32_t node;
     };
-    constexpr int kStack = 7 * CompactOctree::kMaxDepth + 1;
-    Voxel voxels[kStack];
-    Place places[kStack];
+    StackedVoxel voxels[kWalkStack];
+    Place places[kWalkStack];
     const CompactNode* const nodes = octree.nodes.data();
-    const auto& [low, high] = octree.bounds;
-    Voxel voxel{{low.x, low.y, low.z, 0, high.x, high.y, high.z, 0}};
+    StackedVoxel voxel(octree.bounds);
     Place at{0, 0};
     int waiting = 0;
     for (;;) {
         const CompactNode& node = nodes[at.node];
-        std::uint32_t ahead = 0;
         if (node.is_leaf()) {
             if (leaf(octree.items.data() + node.first_item(), node.item_count(), at.t)) return true;
         } else {
             hwy::Prefetch(nodes + node.first_child());
             float entry[8];
-            ahead = slabs.meets(voxel.face, node.cut, voxel.face + 4, entry) & node.mask();
-            ahead = flipped(ahead, slabs.flip());
-            const OctantFloats faces = OctantFloats::load(voxel.face);
-            const OctantFloats cut = OctantFloats::load_repeated(node.cut);
-            // The farthest first, so that the nearest is taken up next.
-            while (ahead != 0) {
-                const auto order = static_cast<unsigned>(31 - std::countl_zero(ahead));
-                const unsigned octant = order ^ slabs.flip();
-                ahead ^= 1U << order;
-                // Upper on an axis: the cut is the low face; else the high one.
-                const std::uint32_t moved = octant | (~octant & 7) << 4;
-                select(LaneMask<float, 8>::from_bits(moved), cut, faces)
-                    .store(voxels[waiting].face);
-                places[waiting++] = {entry[octant], node.child(octant)};
-            }
+            const std::uint32_t met = slabs.meets(voxel.face, node.cut, voxel.face + 4, entry);
+            from_far_to_near(met & node.mask(), slabs.flip(), voxel, node,
+                             [&](unsigned octant, const OctantFloats& faces) HWY_ATTR {
+                                 faces.store(voxels[waiting].face);
+                                 places[waiting++] = {entry[octant], node.child(octant)};
+                             });
         }
         do {
             if (waiting == 0) return false;
