@@ -3,7 +3,6 @@
 #include <cmath>
 #include <limits>
 
-#include "fast/camera/pixel_boxes.h"
 #include "nuvo/math/error_bounds.h"
 #include "nuvo/math/parallel.h"
 

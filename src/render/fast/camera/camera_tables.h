@@ -73,7 +73,8 @@ struct SeenQuadric {
     const BallMap* map;          ///< to its ball; null: it is no ball
 };
 
-/// The pixels at whose centres a primitive may be seen, and how near it may be.
+/// The pixels at whose centres a primitive may be seen, and how near it may be: most primitives of
+/// a dense scene show at few pixels or none, and 16 bytes tell so without the 64 of a record.
 struct alignas(16) PixelBox {
     std::uint32_t columns;  ///< the first | the one after the last << 16
     std::uint32_t rows;     ///< the same
@@ -82,6 +83,11 @@ struct alignas(16) PixelBox {
 };
 static_assert(sizeof(PixelBox) == 16);
 inline constexpr PixelBox kNoPixels{};
+/// Pictures whose sides are longer get boxes that rule nothing out.
+inline constexpr int kMostBoxPixels = 65535;
+/// Fills the boxes of spheres. (pixel_boxes.cpp)
+void make_sphere_boxes(InstructionSet isa, const CameraRays& camera, const CameraSphere* spheres,
+                       std::size_t count, PixelBox* out);
 
 /// Of the spheres and ellipsoids; made anew for each picture.
 class CameraTables {

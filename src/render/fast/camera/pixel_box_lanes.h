@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "fast/camera/pixel_boxes.h"
+#include "fast/camera/camera_tables.h"
 #include "fast/simd/lanes.h"
 #include "nuvo/math/error_bounds.h"
 

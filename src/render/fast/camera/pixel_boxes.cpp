@@ -1,4 +1,4 @@
-#include "fast/camera/pixel_boxes.h"
+#include "fast/camera/camera_tables.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "fast/camera/pixel_boxes.cpp"

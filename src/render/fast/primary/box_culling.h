@@ -9,7 +9,6 @@
 #include <algorithm>
 
 #include "fast/camera/camera_tables.h"
-#include "fast/camera/pixel_boxes.h"
 #include "fast/primary/macro_tile.h"
 #include "fast/simd/lanes.h"
 #include "fast/tile/tile.h"
