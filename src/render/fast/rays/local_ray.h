@@ -22,7 +22,6 @@ struct LocalRay {
     double scale = 1;    ///< s + advance = t * scale, a power of two
     float behind = 0;    ///< the true origin's s, or between it and all that may be met
 
-    LocalRay() = default;
     LocalRay(const Ray& ray, const LocalFrame& frame, float reach);
 };
 

@@ -146,12 +146,6 @@ inline void SingleRays::set_triangle(PairRoots& roots, std::size_t i, const Ray&
     roots.set_front_only(i, mesh.front_only);
 }
 
-inline void SingleRays::set_sphere(PairRoots& roots, std::size_t i, const Ray& ray,
-                                   const Object& object) const {
-    roots.set(i, ray, std::get<Sphere>(object.shape));
-    roots.set_front_only(i, scene_.front_only(object));
-}
-
 namespace {
 
 // Rays whose roots are still to be found.
@@ -225,7 +219,8 @@ void SingleRays::answer(std::span<const Ray> rays, const Slot* found, RayAnswer*
             continue;
         }
         spheres.ray[spheres.count] = i;
-        set_sphere(spheres.roots, spheres.count++, rays[i], object);
+        spheres.roots.set(spheres.count, rays[i], std::get<Sphere>(object.shape));
+        spheres.roots.set_front_only(spheres.count++, scene_.front_only(object));
         if (spheres.count == PairRoots::kCount) finish(spheres, &PairRootStage::find_spheres);
     }
     finish(triangles, &PairRootStage::find_triangles);

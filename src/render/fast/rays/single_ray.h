@@ -82,7 +82,6 @@ class SingleRays {
     [[gnu::always_inline]] void prefetch(std::span<const Slot> found) const;
     void set_triangle(PairRoots& roots, std::size_t i, const Ray& ray,
                       const PrimitiveSource& source) const;
-    void set_sphere(PairRoots& roots, std::size_t i, const Ray& ray, const Object& object) const;
     const Object& object_of(const PrimitiveSource& source) const {
         return scene_.scene().objects[source.object];
     }

@@ -43,11 +43,7 @@ CompactBuildOptions octree_options() {
     return options;
 }
 
-float half_area(const Bounds3T<float>& box) {
-    if (box.empty()) return 0;
-    const Vec3<float> w = box.widths();
-    return w.x * w.y + w.y * w.z + w.z * w.x;
-}
+float half_area(const Bounds3T<float>& box) { return box.surface_area() / 2; }
 
 // A voxel of the compact octree. forest[k - 1] is the least cost of what it holds as at most k
 // leaves and nodes in lanes of a node above it.

@@ -13,8 +13,7 @@
 
 namespace nuvo {
 
-/// Remembers which items were tested lately, so that one listed in several leaves is tested once.
-/// Forgets an item when another takes its place.
+/// Remembers which items were tested lately; forgets one when another takes its place.
 class Mailbox {
   public:
     /// Forgets all.
