@@ -217,19 +217,17 @@ void add_light_in(const ShadingTables& tables, std::size_t light_index, const Ti
         if (lit[b] == 0) continue;
         const int first = b * kBlockLanes;
         const RayMask mask = RayMask::from_bits(lit[b]);
-        const Floats shine = select(mask, Floats::load(scratch.shine + first), none);
-        const Floats error = select(mask, Floats::load(scratch.shine_error + first), none);
-        for (int c = 0; c < tables.channels; ++c)
-            add_to(scratch.diffuse[c] + first,
-                   tables.channels == 1 ? shine : shine * Floats(light.tint[c]));
-        add_to(scratch.diffuse_error + first, error * Floats(light.tint_most));
-        if (!specular) continue;
-        const Floats lobe = select(mask, Floats::load(scratch.lobe + first), none);
-        const Floats lobe_error = select(mask, Floats::load(scratch.lobe_error + first), none);
-        for (int c = 0; c < tables.channels; ++c)
-            add_to(scratch.specular[c] + first,
-                   tables.channels == 1 ? lobe : lobe * Floats(light.tint[c]));
-        add_to(scratch.specular_error + first, lobe_error * Floats(light.tint_most));
+        const auto add = [&](const float* terms, const float* errors, auto& sums,
+                             float* sum_errors) HWY_ATTR {
+            const Floats term = select(mask, Floats::load(terms + first), none);
+            const Floats error = select(mask, Floats::load(errors + first), none);
+            for (int c = 0; c < tables.channels; ++c)
+                add_to(sums[c] + first, tables.channels == 1 ? term : term * Floats(light.tint[c]));
+            add_to(sum_errors + first, error * Floats(light.tint_most));
+        };
+        add(scratch.shine, scratch.shine_error, scratch.diffuse, scratch.diffuse_error);
+        if (specular)
+            add(scratch.lobe, scratch.lobe_error, scratch.specular, scratch.specular_error);
     }
 }
 

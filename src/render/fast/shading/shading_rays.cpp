@@ -62,9 +62,10 @@ ShadingRays::ShadingRays(const CameraRays& camera) {
 }
 
 std::size_t ShadingRays::memory_bytes() const {
-    std::size_t floats = column_square.size() + row_square.size();
-    for (int axis = 0; axis < 3; ++axis) floats += column[axis].size() + row[axis].size();
-    return floats * sizeof(float);
+    std::size_t bytes = vector_bytes(column_square) + vector_bytes(row_square);
+    for (int axis = 0; axis < 3; ++axis)
+        bytes += vector_bytes(column[axis]) + vector_bytes(row[axis]);
+    return bytes;
 }
 
 }  // namespace nuvo

@@ -1,6 +1,7 @@
 #include "fast/shading/shading_tables.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <string_view>
@@ -33,7 +34,7 @@ void put(const Color& color, double factor, float (&out)[3]) {
 // A color whose bytes are those of the exact one if nothing is added: where it is halfway between
 // two bytes it is moved up a little, as ties go; floats up to 255 are multiples of half of that.
 constexpr float kOffTie = 0x1p-15F;
-bool put_surely(const Color& color, float* out) {
+bool put_surely(const Color& color, float (&out)[3]) {
     bool moved = false;
     const Rgb8 bytes = quantized(color);
     for (int c = 0; c < 3; ++c) {
@@ -318,16 +319,14 @@ void add_background(ShadingTables& tables) {
         }
     if (exact.ground_color.empty() && exact.sky_color.size() <= 1) {
         const Color color = exact.sky_color.empty() ? Color{} : exact.sky_color[0];
-        put_surely(color, out.middle.data());
+        put_surely(color, out.middle);
     } else if (exact.sky_color.size() == 1 && exact.ground_color.size() == 1 &&
                exact.sky_angle.empty() && exact.ground_angle.empty()) {
         out.kind = ShadingBackground::Kind::kBlend;
         const Color middle = (exact.sky_color[0] + exact.ground_color[0]) * 0.5;
         const Color slope = (exact.sky_color[0] - exact.ground_color[0]) * 0.5;
-        for (int c = 0; c < 3; ++c) {
-            out.middle[static_cast<std::size_t>(c)] = rounded(middle[c] * kFullByte);
-            out.slope[static_cast<std::size_t>(c)] = rounded(slope[c] * kFullByte);
-        }
+        put(middle, kFullByte, out.middle);
+        put(slope, kFullByte, out.slope);
         // Those of y, of both constants, of the product and of the sum.
         const double most = max_norm(slope);
         const auto y = static_cast<double>(tables.rays.sine_error);
@@ -377,17 +376,15 @@ void ShadingTables::fill(const TriangleSet& some, int threads) {
 }
 
 std::size_t ShadingTriangles::memory_bytes() const {
-    std::size_t bytes = known.memory_bytes() + words.size() * sizeof(SurfaceWord) +
-                        normals.size() * sizeof(float) + smooth.size() * sizeof(SmoothTriangle) +
-                        smooth_offsets.size() * sizeof(std::uint32_t);
-    for (const BigVector<float>& of_light : cosines) bytes += of_light.size() * sizeof(float);
+    std::size_t bytes = known.memory_bytes() + vector_bytes(words) + vector_bytes(normals) +
+                        vector_bytes(smooth) + vector_bytes(smooth_offsets);
+    for (const BigVector<float>& of_light : cosines) bytes += vector_bytes(of_light);
     return bytes;
 }
 
 std::size_t ShadingTables::memory_bytes() const {
-    return sizeof(*this) + rays.memory_bytes() + materials.size() * sizeof(ShadingMaterial) +
-           material_words.size() * sizeof(SurfaceWord) + lights.size() * sizeof(ShadingLight) +
-           triangles.memory_bytes();
+    return sizeof(*this) + rays.memory_bytes() + vector_bytes(materials) +
+           vector_bytes(material_words) + vector_bytes(lights) + triangles.memory_bytes();
 }
 
 }  // namespace nuvo

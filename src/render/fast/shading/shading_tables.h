@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -126,10 +125,10 @@ struct BackgroundBand {
 struct ShadingBackground {
     enum class Kind : std::uint8_t { kConstant, kBlend, kGradient };
     Kind kind = Kind::kConstant;
-    std::array<float, 3> middle{};  ///< kConstant; kBlend: at the horizon
-    std::array<float, 3> slope{};   ///< kBlend: by the sine of the height
-    float error = 0;                ///< bounds the errors in units of a byte
-    bool in_range = false;          ///< colors surely stay below 255 and a half, and above -1 / 2
+    float middle[3] = {};   ///< kConstant; kBlend: at the horizon
+    float slope[3] = {};    ///< kBlend: by the sine of the height
+    float error = 0;        ///< bounds the errors in units of a byte
+    bool in_range = false;  ///< colors surely stay below 255 and a half, and above -1 / 2
     bool has_ground = false;
     std::vector<BackgroundBand> sky;  ///< never empty for a gradient; the last has no end
     std::vector<BackgroundBand> ground;
