@@ -117,9 +117,8 @@ HWY_INLINE Corners load_corners(const LocalTriangle* triangles, const Ints& offs
 }
 
 // The triangle's plane: m . (p - w0), m = e0 x e1. An edge's error is 2 e + u E <= 2 e', with
-// e' = u (O + 2 W + E); that of m 8 E e' + 4 u E^2; of the value 3 T (8 E e' + 4 u E^2), plus |m|_1
-// e
-// <= 6 E^2 e, plus 6 roundings of terms of |m|_1 T in all <= 36 u E^2 T.
+// e' = u (O + 2 W + E); that of m 8 E e' + 4 u E^2; of the value 3 T (8 E e' + 4 u E^2), plus
+// |m|_1 e <= 6 E^2 e, plus 6 roundings of terms of |m|_1 T in all <= 36 u E^2 T.
 HWY_INLINE void clear_by_plane(const Corners& c, const Octants& octants, Cleared& cleared) {
     const Floats t = c.widest + octants.reach;
     const Floats e = c.widest + c.widest + c.longest + octants.farthest;

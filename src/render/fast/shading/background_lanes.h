@@ -73,7 +73,6 @@ HWY_INLINE PixelColors gradient(const ShadingBackground& background, const Float
     const Floats from_zenith = (most + least) * Floats(0.5F);
     PixelColors out = banded(background.sky, from_zenith, half);
     if (!background.has_ground) return out;
-    constexpr float kPi = 3.14159265F;
     const PixelColors ground =
         banded(background.ground, Floats(kPi) - from_zenith, half + Floats(roundings(8)));
     out.take(y < Floats(0.0F), ground);

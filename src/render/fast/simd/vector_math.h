@@ -97,6 +97,8 @@ HWY_INLINE Floats power_of_complement(const Floats& z, const Floats& exponent) {
     return floats_of(bits_of(polynomial(kExp, y - whole)) + scale);
 }
 
+inline constexpr float kPi = 3.14159265F;
+
 /// asin(s) / s as a polynomial in s^2 <= 1/4, within 2^-27.6.
 inline constexpr float kArcSineByItsSine[] = {0.999999995984F,  0.166667820058F,  0.0749469668742F,
                                               0.0455206356317F, 0.0239939996536F, 0.0424173737598F};
@@ -106,7 +108,6 @@ inline constexpr float kArcSineByItsSine[] = {0.999999995984F,  0.166667820058F,
 /// arc's, of which the root has one rounding, the polynomial and its product three.
 inline constexpr float kArcSineError = roundings(16);
 HWY_INLINE Floats arc_sine(const Floats& x) {
-    constexpr float kPi = 3.14159265F;
     const auto upper = x > Floats(0.5F);
     const Floats square = select(upper, (Floats(1.0F) - x) * Floats(0.5F), x * x);
     const Floats s = select(upper, sqrt(square), x);
@@ -116,11 +117,10 @@ HWY_INLINE Floats arc_sine(const Floats& x) {
 
 /// The angle in 0..pi whose cosine is x, |x| <= 1, within kArcError (absolutely; 6.4 u measured
 /// over 4 * 10^6 numbers): pi / 2 - asin(x), near the ends 2 asin(sqrt((1 - |x|) / 2)), where 1 -
-/// |x| is exact. Of results near pi:
-/// pi's rounding 1.5 u, two differences of 2 u, and twice the arc's.
+/// |x| is exact. Of results near pi: pi's rounding 1.5 u, two differences of 2 u, and twice the
+/// arc's.
 inline constexpr float kArcError = roundings(8);
 HWY_INLINE Floats arc_cosine(const Floats& x) {
-    constexpr float kPi = 3.14159265F;
     const Floats size = abs(x);
     const auto near_end = size > Floats(0.5F);
     const Floats square = select(near_end, (Floats(1.0F) - size) * Floats(0.5F), size * size);
