@@ -28,13 +28,13 @@ class CornerFetch {
     void advance() {
         follow_source(batches_[newest_]);
         follow_indices(batches_[(newest_ + 2) % 3]);
-        oldest_ = (newest_ + 1) % 3;
-        gather(batches_[oldest_]);
-        newest_ = oldest_;
-        count_ = batches_[oldest_].count;
-        slots_ = batches_[oldest_].slot;
-        batches_[oldest_].count = 0;
-        batches_[oldest_].front_only = 0;
+        newest_ = (newest_ + 1) % 3;
+        Batch& oldest = batches_[newest_];
+        gather(oldest);
+        count_ = oldest.count;
+        slots_ = oldest.slot;
+        oldest.count = 0;
+        oldest.front_only = 0;
     }
     /// Whether nothing is on its way.
     bool empty() const { return batches_[0].count + batches_[1].count + batches_[2].count == 0; }
@@ -85,7 +85,6 @@ class CornerFetch {
     const FastScene& scene_;
     std::array<Batch, 3> batches_{};
     std::size_t newest_ = 0;
-    std::size_t oldest_ = 0;
     std::size_t count_ = 0;
     std::array<Slot, kBatch> slots_{};
     std::array<TriangleBatch, kBatch / TriangleBatch::kSize> corners_;

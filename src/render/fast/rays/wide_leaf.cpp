@@ -53,10 +53,6 @@ Grid grid_over(const Bounds3& box) {
     return grid;
 }
 
-void put_floats(std::span<const float> values, BigVector<std::uint32_t>& words) {
-    for (const float value : values) words.push_back(std::bit_cast<std::uint32_t>(value));
-}
-
 void put_corners(const Grid& grid, std::span<const Triangle> triangles,
                  BigVector<std::uint32_t>& words) {
     if (triangles.empty()) return;
@@ -189,7 +185,8 @@ void put_part(const FastScene& scene, const Sorted& sorted, const Bounds3T<float
             const bool front_only = scene.front_only(scene.object(scene.id(slot)));
             words.push_back(slot | (front_only ? kFrontOnly : 0));
         }
-    for (const auto& values : sorted.centers_and_radii) put_floats(values, words);
+    for (const std::vector<float>& values : sorted.centers_and_radii)
+        for (const float value : values) words.push_back(std::bit_cast<std::uint32_t>(value));
     put_corners(grid, sorted.corners, words);
 }
 
