@@ -1,5 +1,6 @@
 #include "fast/rays/local_ray.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 
@@ -17,8 +18,6 @@ double to_unit(double value) {
     return std::bit_cast<double>((2 * kExponentBias - exponent) << kExponentPlace);
 }
 
-double larger(double a, double b) { return a > b ? a : b; }
-
 // The ray enters the box around 0 with this half width later than this, if it does. Axes along
 // which the ray hardly moves are left out.
 double before_box(const Point3& o, const Vector3& d, double half) {
@@ -27,7 +26,7 @@ double before_box(const Point3& o, const Vector3& d, double half) {
     for (int axis = 0; axis < 3; ++axis) {
         if (std::fabs(d[axis]) < kHardly) continue;
         const double near = d[axis] > 0 ? -half : half;
-        entry = larger(entry, (near - o[axis]) / d[axis]);
+        entry = std::max(entry, (near - o[axis]) / d[axis]);
     }
     return entry;
 }
