@@ -29,7 +29,7 @@ bool finite(const Vector3& v) {
 }
 
 std::string mutation_word(Chooser& choose, const Target& target) {
-    if (choose.once_in(4)) return text((choose.once_in(2) ? 1 : -1) * choose.magnitude());
+    if (choose.once_in(4)) return text(choose.signed_magnitude());
     const int n = static_cast<int>(target.words.size());
     return target.words[static_cast<std::size_t>(choose.below(n))];
 }

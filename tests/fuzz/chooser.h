@@ -50,6 +50,10 @@ class Chooser {
             if (m <= limit && m >= 1 / limit) return m;
         }
     }
+    double signed_magnitude() {
+        const double sign = once_in(2) ? 1 : -1;
+        return sign * magnitude();
+    }
     /// A coordinate of a thing that is about `half` large, in the document's kind of number.
     double coordinate(double half) {
         switch (numbers) {
@@ -58,7 +62,7 @@ class Chooser {
             case Numbers::kDecimals:
                 return std::nearbyint(uniform(-half, half) * 10) / 10;
             case Numbers::kExtreme:
-                if (once_in(12)) return (once_in(2) ? 1 : -1) * magnitude();
+                if (once_in(12)) return signed_magnitude();
                 if (once_in(6)) return 0;
                 break;
             case Numbers::kDoubles:

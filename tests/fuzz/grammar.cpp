@@ -21,8 +21,10 @@ Element group(const char* name, Elements children) { return {name, {}, std::move
 Element placed_shape(Chooser& choose, bool tip_heavy) {
     Elements inside{any_shape(choose, tip_heavy)};
     if (choose.once_in(16)) inside.push_back(any_light(choose, hard_point(choose)));
-    if (choose.once_in(30))
-        inside.push_back(viewpoint(choose, hard_point(choose), choose.point(3)));
+    if (choose.once_in(30)) {
+        const Vector3 at = hard_point(choose);
+        inside.push_back(viewpoint(choose, at, choose.point(3)));
+    }
     Element placed = transformed(choose, group("Group", std::move(inside)));
     for (int depth = choose.once_in(3) ? choose.below(4) : 0; depth > 0; --depth)
         placed = transformed(choose, std::move(placed));
@@ -98,7 +100,8 @@ void coincide(Chooser& choose, Content& content) {
 void scatter(Chooser& choose, Content& content) {
     for (int i = 2 + choose.below(4); i > 0; --i) {
         Vector3 far;
-        far[choose.below(3)] = (choose.once_in(2) ? 1 : -1) * choose.magnitude();
+        const int axis = choose.below(3);
+        far[axis] = choose.signed_magnitude();
         if (choose.once_in(3)) far = {};
         if (choose.once_in(2)) content.hard_points.push_back(far);
         content.nodes.push_back(moved(any_shape(choose), far));

@@ -107,7 +107,8 @@ TEST(OrderOfQuadrics, IsRightWhereItIsSureAtAll) {
     for (int i = 0; i < 300; ++i) {
         const Ellipsoid e = random.ellipsoid(1);
         const Sphere s{e.center, e.radius};
-        const double off = 1 - std::ldexp(std::fabs(random.number(1)), -random.integer(0, 50));
+        const double number = std::fabs(random.number(1));
+        const double off = 1 - std::ldexp(number, -random.integer(0, 50));
         Vector3 across = normalized(random.vector(1));
         const Vector3 d = normalized(cross(across, random.vector(1)));
         const Ray grazing{s.center + across * (off * s.radius) - d * random.number(4), d};

@@ -102,7 +102,11 @@ TEST_P(Overlap, OfTrianglesThatJustTouch) {
     int touching = 0;
     int apart = 0;
     for (int i = 0; i < 900; ++i) {
-        const Vector3 far = i % 3 == 0 ? draw.vector() * draw.size(0, 20) : Vector3{};
+        Vector3 far;
+        if (i % 3 == 0) {
+            far = draw.vector();
+            far = far * draw.size(0, 20);
+        }
         Bounds3 box;
         for (const Vector3& p : {draw.vector(), draw.vector()}) box = box.extended(p + far);
         const Vector3 size = Vector3{1, 1, 1} * draw.size(-4, 4);
@@ -112,7 +116,8 @@ TEST_P(Overlap, OfTrianglesThatJustTouch) {
         // Some roundings more or less, and sometimes many.
         const double largest = std::fmax(max_norm(box.min), max_norm(box.max)) +
                                max_norm(t.b - t.a) + max_norm(t.c - t.a);
-        const Vector3 step = draw.vector() * (largest * draw.size(-56, i % 2 ? -52 : -40));
+        const Vector3 way = draw.vector();
+        const Vector3 step = way * (largest * draw.size(-56, i % 2 ? -52 : -40));
         for (Point3* p : {&t.a, &t.b, &t.c}) *p = (*p + step) * scale;
         Bounds3 there{box.min * scale, box.max * scale};
         const bool found = overlaps(t, there);
@@ -156,8 +161,9 @@ TEST_P(Overlap, OfSpheresThatJustTouch) {
             farthest += across * across;
         }
         const Real touched = draw.below(2) != 0 ? nearest : farthest;
-        const double radius = static_cast<double>(sqrt(touched)) * scale *
-                              (1 + draw.uniform(-1, 1) * draw.size(-54, -45));
+        const double sense = draw.uniform(-1, 1);
+        const double radius =
+            static_cast<double>(sqrt(touched)) * scale * (1 + sense * draw.size(-54, -45));
         const Real squared = Real(radius / scale) * Real(radius / scale);
         const bool truth = nearest <= squared && squared <= farthest;
         const bool found = overlaps(Sphere{center, radius}, box);

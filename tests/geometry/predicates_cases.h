@@ -113,12 +113,16 @@ inline TriangleCase triangle_case(Random& random, int kind) {
         case 4: {   // in the plane
             const Vector3 e1 = t.b - t.a;
             const Vector3 e2 = t.c - t.a;
-            from = t.a + e1 * (random.below(9) - 4) + e2 * (random.below(9) - 4);
-            to = t.a + e1 * (random.below(5) * 0.25) + e2 * (random.below(5) * 0.25);
+            from = t.a + e1 * (random.below(9) - 4);
+            from = from + e2 * (random.below(9) - 4);
+            to = t.a + e1 * (random.below(5) * 0.25);
+            to = to + e2 * (random.below(5) * 0.25);
             break;
         }
         case 5: {  // a sliver, aimed at
-            t.c = t.a + (t.b - t.a) * random.uniform(0, 1) + point() * std::exp2(-random.below(52));
+            t.c = t.a + (t.b - t.a) * random.uniform(0, 1);
+            const Vector3 off = point();
+            t.c = t.c + off * std::exp2(-random.below(52));
             to = t.a * 0.5 + t.b * 0.3 + t.c * 0.2;
             break;
         }
@@ -131,8 +135,8 @@ inline TriangleCase triangle_case(Random& random, int kind) {
             break;
         }
         case 8: {  // grazing
-            from =
-                t.a + (t.b - t.a) * 3 + (t.c - t.a) * -2 + point() * std::exp2(-random.below(60));
+            const Vector3 off = point();
+            from = t.a + (t.b - t.a) * 3 + (t.c - t.a) * -2 + off * std::exp2(-random.below(60));
             to = t.a * 0.25 + t.b * 0.5 + t.c * 0.25;
             break;
         }
@@ -176,8 +180,8 @@ inline SphereCase sphere_case(Random& random, int kind) {
         case 2: {
             // Grazes at a distance of R (1 + e) from the centre: the tangent point lies on a cone.
             const Vector3 axis = from - s.center;
-            const double h = s.radius * (1 + std::pow(10, random.uniform(-16, -3)) *
-                                                 (random.below(2) != 0 ? 1 : -1));
+            const double e = std::pow(10, random.uniform(-16, -3));
+            const double h = s.radius * (1 + (random.below(2) != 0 ? e : -e));
             const double cosine = h / length(axis);
             if (cosine >= 1) break;
             const Vector3 side = tangent_point(1) - s.center;

@@ -104,13 +104,14 @@ TEST(Shadow, CoincidentAndAdjacentSurfacesCastNone) {
             {a + e1 * 0.5, a + e2, a + e1 * -1},
             {a + e1, a + e2, a + e1 + e2},
         };
-        const ExactRay eye = ExactRay::between(a + n + random.vector() * 0.1,
-                                               a + e1 * 0.25 + e2 * random.uniform(0.1, 0.7));
+        const Point3 from = a + n + random.vector() * 0.1;
+        const ExactRay eye = ExactRay::between(from, a + e1 * 0.25 + e2 * random.uniform(0.1, 0.7));
         StageCounts counts;
         if (!hit(eye, lit, counts)) continue;
         const SurfacePoint p = surface_point(eye, lit);
-        const Point3 light = a + e1 * random.uniform(-9, 9) + e2 * random.uniform(-9, 9) +
-                             n * std::exp2(-random.below(40));
+        const double along_e1 = random.uniform(-9, 9);
+        const double along_e2 = random.uniform(-9, 9);
+        const Point3 light = a + e1 * along_e1 + e2 * along_e2 + n * std::exp2(-random.below(40));
         EXPECT_FALSE(in_shadow(p, light, others)) << "seed " << kSeed + 2 << ", case " << i;
         ++tested;
     }
@@ -165,9 +166,12 @@ struct LitCase {
         if (i % 3 > 0) other.a = lit.b;
         if (i % 3 > 1) other.b = lit.a;
         light = {corner() * 4, random.below(2) == 0};
-        if (random.below(3) == 0)  // exact on the lattice
-            light.at = (lit.b - lit.a) * random.below(5) + (lit.c - lit.a) * random.below(5) +
+        if (random.below(3) == 0) {  // exact on the lattice
+            const int along_ab = random.below(5);
+            const int along_ac = random.below(5);
+            light.at = (lit.b - lit.a) * along_ab + (lit.c - lit.a) * along_ac +
                        (light.endless ? Vector3{} : lit.a);
+        }
         a = oracle::rational(lit.a);
         e1 = oracle::rational(lit.b) - a;
         e2 = oracle::rational(lit.c) - a;
@@ -224,8 +228,9 @@ TEST(Shadow, WaysAlongTheLitPlaneStartOnTheLightsSide) {
         if (random.below(2) == 0)
             c.light.at.x += random.uniform(-1, 1) * 0x1p-52 * max_norm(c.light.at);
         c.to = oracle::rational(c.light.at);
-        const Point3 p = c.lit.a + (c.lit.b - c.lit.a) * random.uniform(0.1, 0.5) +
-                         (c.lit.c - c.lit.a) * random.uniform(0.1, 0.5);
+        const double along_ab = random.uniform(0.1, 0.5);
+        const double along_ac = random.uniform(0.1, 0.5);
+        const Point3 p = c.lit.a + (c.lit.b - c.lit.a) * along_ab + (c.lit.c - c.lit.a) * along_ac;
         const WayStart rounded{p, 16 * kUnitRoundoff * (max_norm(p) + 1)};
         const WayStarts starts = way_starts(rounded, c.lit, c.light, counts);
         const int side = c.side(p);
@@ -258,13 +263,14 @@ TEST(Shadow, TheTerminatorSplitsASphere) {
     int decided = 0;
     for (int i = 0; i < 4000; ++i) {
         const Sphere s{random.vector(), random.uniform(0.1, 2)};
-        const ExactRay eye =
-            ExactRay::between(random.vector() * 9, s.center + random.vector() * s.radius);
+        const Point3 from = random.vector() * 9;
+        const ExactRay eye = ExactRay::between(from, s.center + random.vector() * s.radius);
         const std::optional<SphereHit> found = hit(eye, s, counts);
         if (!found) continue;
         const SurfacePoint p = surface_point(eye, s, found->which);
         const Vector3 side = normalized(cross(p.normal, random.vector()));
-        const double height = random.uniform(-1, 1) * std::exp2(-random.below(44));
+        const double part = random.uniform(-1, 1);
+        const double height = part * std::exp2(-random.below(44));
         const Vector3 to_light = side + p.normal * height;
         const bool blocked =
             blocks(ExactRay(Ray{p.point, to_light}), kEndless, p.error, s, true, counts);

@@ -81,8 +81,10 @@ RoundedQuadratic rounded(Draw& draw, double least) {
     };
     const double size = q.a * scale;
     q.a_relative = error();
-    q.b_error = error() * (draw.below(2) != 0 ? std::fabs(q.b) : size);
-    q.c_error = error() * (draw.below(2) != 0 ? std::fabs(q.c) : size * scale);
+    q.b_error = error();
+    q.b_error *= draw.below(2) != 0 ? std::fabs(q.b) : size;
+    q.c_error = error();
+    q.c_error *= draw.below(2) != 0 ? std::fabs(q.c) : size * scale;
     q.depth = (q.b * q.b - q.a * q.c) / q.a;
     q.length = std::sqrt(q.a);
     return q;
@@ -180,10 +182,11 @@ TEST(QuadraticDecisions, WhatBlocksIsWhatEveryPolynomialWithinTheBoundsDoes) {
         // The end: none, anywhere, or about a root.
         const double root =
             (-q.b + (draw.below(2) != 0 ? 1 : -1) * std::sqrt(q.a * std::fmax(0.0, q.depth))) / q.a;
+        const double sense = draw.uniform(-1, 1);
         const double end = draw.below(4) == 0 ? kEndless
                            : draw.below(2) != 0
                                ? std::fabs(root) * draw.size(-1, 1)
-                               : std::fabs(root) * (1 + draw.uniform(-1, 1) * draw.size(-50, -10));
+                               : std::fabs(root) * (1 + sense * draw.size(-50, -10));
         const auto truth = [&](const Polynomial& p) {
             const OriginPlace place = on_it                    ? OriginPlace::kOnIt
                                       : abs(p.c) <= Real(band) ? OriginPlace::kTouching

@@ -26,7 +26,8 @@ TEST(Bounds, OfASphereContainItAndAreTight) {
     std::uniform_real_distribution<double> exponent(-40, 40);
     std::uniform_real_distribution<double> sign(-1, 1);
     for (int i = 0; i < 20000; ++i) {
-        const double c = std::copysign(std::exp2(exponent(random)), sign(random));
+        const double size = std::exp2(exponent(random));
+        const double c = std::copysign(size, sign(random));
         const double r = std::exp2(exponent(random));
         const Bounds3 box = Sphere{{c, 0, 0}, r}.bounds();
         const Rational low = Rational(c) - Rational(r);

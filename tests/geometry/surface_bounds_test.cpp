@@ -18,6 +18,10 @@ constexpr unsigned kSeed = 20261131;
 Vector direction_of(const ExactRay& ray) {
     return ray.tail() == Vector3{} ? Vector(ray.direction()) : Vector::rounded(ray.direction());
 }
+Vector3 far_vector(Draw& draw, double least, double most) {
+    const Vector3 way = draw.vector();
+    return way * draw.size(least, most);
+}
 /// A ray from `from` through `to`, half of them with a tail.
 ExactRay ray_through(Draw& draw, const Point3& from, const Point3& to) {
     return draw.below(2) != 0 ? ExactRay(Ray{from, to - from}) : ExactRay::between(from, to);
@@ -42,7 +46,7 @@ TriangleCase triangle_case(Draw& draw, int kind) {
     if (kind == 4) t.c = t.a + (t.c - t.a) * small;
     if (kind == 5) from *= draw.size(2, 6);
     if (kind == 6) {  // all far from 0
-        const Vector3 far = draw.vector() * draw.size(16, 24);
+        const Vector3 far = far_vector(draw, 16, 24);
         for (Point3* p : {&t.a, &t.b, &t.c, &from}) *p = *p + far;
     }
     const double u = draw.uniform(0.1, 0.8);
@@ -82,11 +86,11 @@ TEST(SurfaceBounds, OfEdgesAreAtLeastTheWorstRoundings) {
         Vector3 b = draw.vector();
         Vector3 c = draw.vector();
         if (i % 2 != 0)  // all largest, in the signs that let all six terms add up
-            for (int axis = 0; axis < 3; ++axis) {
-                d[axis] = draw.uniform(0.99, 1) * (draw.below(2) != 0 ? 1 : -1);
-                b[axis] = draw.uniform(0.99, 1) * (draw.below(2) != 0 ? 1 : -1);
-                c[axis] = draw.uniform(0.99, 1) * (draw.below(2) != 0 ? 1 : -1);
-            }
+            for (int axis = 0; axis < 3; ++axis)
+                for (Vector3* v : {&d, &b, &c}) {
+                    const double size = draw.uniform(0.99, 1);
+                    (*v)[axis] = draw.below(2) != 0 ? size : -size;
+                }
         const double bound =
             detail::edge_error_bound(max_norm(d), std::fmax(max_norm(b), max_norm(c)));
         const Vector q = cross(Vector::rounded(d), Vector::rounded(c));
@@ -147,7 +151,7 @@ RoundCase round_case(Draw& draw, int kind) {
     Sphere sphere{{}, draw.uniform(0.5, 1)};
     Point3 from = draw.vector() * 3;
     Point3 to = draw.vector() * 0.3;
-    if (kind == 1) sphere.center = draw.vector() * draw.size(2, 8);
+    if (kind == 1) sphere.center = far_vector(draw, 2, 8);
     if (kind == 2) from *= draw.size(2, 6);
     if (kind == 3) sphere.radius *= draw.size(3, 6);  // from within
     if (kind == 4) {                                  // grazing
@@ -155,7 +159,7 @@ RoundCase round_case(Draw& draw, int kind) {
         to = side * (sphere.radius * (1 - draw.size(-6, -2)));
     }
     if (dot(from, from) < 2 && kind != 3) from *= 4;
-    if (kind == 5) sphere.center = draw.vector() * draw.size(16, 24);
+    if (kind == 5) sphere.center = far_vector(draw, 16, 24);
     const SphereRoot which = draw.below(2) != 0 ? SphereRoot::kNear : SphereRoot::kFar;
     return {sphere, ray_through(draw, sphere.center + from, sphere.center + to), which};
 }

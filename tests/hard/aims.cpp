@@ -17,7 +17,8 @@ Ray Aims::from_to(const Point3& from, const Point3& to) const {
 }
 
 Point3 Aims::outside(double factor) {
-    const double distance = half_ * random_.uniform(2, 4) * random_.uniform(1, factor);
+    const double least = half_ * random_.uniform(2, 4);
+    const double distance = least * random_.uniform(1, factor);
     if (random_.coordinates() != Coordinates::kLattice)
         return random_.keep(middle_ + random_.unit() * distance);
     // A small multiple of a power of two, so that differences stay exact.

@@ -17,6 +17,7 @@ class Aims {
 
     /// The ray from one point towards another, as the input may hold it.
     Ray from_to(const Point3& from, const Point3& to) const;
+    Ray at_feature(const Point3& from) { return from_to(from, feature()); }
 
     /// A point at 2 to 4 half widths from the scene's middle; far: up to `factor` times that.
     Point3 outside(double factor = 1);

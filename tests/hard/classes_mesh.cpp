@@ -21,7 +21,7 @@ Ray almost_parallel(const Scene&, Aims& aims, Random& random) {
     for (int axis = 0; axis < 3; ++axis) {
         const double least = random.coordinates() == Coordinates::kDouble ? -320 : -37;
         if (ray.direction[axis] == 0 && random.below(3) != 0)
-            ray.direction[axis] = random.keep(random.sign() * random.power_of_ten(least, -8));
+            ray.direction[axis] = random.keep(random.signed_power_of_ten(least, -8));
     }
     return ray;
 }
@@ -36,7 +36,11 @@ Scene flat(Random& random) {
         p[axis] = height;
         return p;
     };
-    for (int i = 0; i < 40; ++i) add(scene, single(corner(), corner(), corner()));
+    for (int i = 0; i < 40; ++i) {
+        const Point3 a = corner();
+        const Point3 b = corner();
+        add(scene, single(a, b, corner()));
+    }
     return scene;
 }
 
@@ -54,7 +58,8 @@ Scene plates(Random& random) {
         Point3 c = corner;
         b[(axis + 1) % 3] += 1 + random.below(3);
         c[(axis + 2) % 3] += random.sign();
-        corner[axis] = b[axis] = c[axis] = 2.0 * (random.below(5) - 2) * (random.chance() ? 1 : 0);
+        const double height = 2.0 * (random.below(5) - 2);
+        corner[axis] = b[axis] = c[axis] = random.chance() ? height : 0;
         add(scene, single(corner, b, c));
     }
     return scene;
@@ -62,7 +67,7 @@ Scene plates(Random& random) {
 
 Ray at_plates(const Scene&, Aims& aims, Random& random) {
     if (random.below(3) == 0) return aims.in_split_plane();
-    return aims.from_to(random.chance() ? aims.outside() : aims.feature(), aims.feature());
+    return aims.at_feature(random.chance() ? aims.outside() : aims.feature());
 }
 
 Scene one_closed_mesh(Random& random) {
@@ -71,15 +76,14 @@ Scene one_closed_mesh(Random& random) {
     return scene;
 }
 
-Ray from_outside(const Scene&, Aims& aims, Random&) {
-    return aims.from_to(aims.outside(), aims.feature());
-}
+Ray from_outside(const Scene&, Aims& aims, Random&) { return aims.at_feature(aims.outside()); }
 
 Ray from_inside(const Scene&, Aims& aims, Random& random) {
     const Object& object = aims.object();
-    const Point3 from =
-        aims.middle(object) + random.unit() * (aims.half_size(object) * random.uniform(0, 0.3));
-    return aims.from_to(random.below(4) == 0 ? aims.middle(object) : from, aims.feature(object));
+    const Vector3 way = random.unit();
+    Point3 from = aims.middle(object) + way * (aims.half_size(object) * random.uniform(0, 0.3));
+    if (random.below(4) == 0) from = aims.middle(object);
+    return aims.from_to(from, aims.feature(object));
 }
 
 Scene stretched(Random& random) {
@@ -101,7 +105,8 @@ Scene slivers(Random& random) {
         const Point3 a = random.point(4);
         const Point3 b = random.point(4);
         const double thickness = std::exp2(-random.below(40));
-        Point3 c = random.keep(a + (b - a) * random.uniform(0, 1) + random.unit() * thickness);
+        const double part = random.uniform(0, 1);
+        Point3 c = random.keep(a + (b - a) * part + random.unit() * thickness);
         if (i % 8 == 0) c = random.chance() ? b : random.keep(a + (b - a) * 2.0);
         if (i % 8 == 1) {
             const Point3 peak = random.point(4);
@@ -155,7 +160,7 @@ Scene contact_gaps(Random& random) {
 
 Ray along_gaps(const Scene& scene, Aims& aims, Random& random) {
     if (random.below(3) == 0) return axis_parallel(scene, aims, random);
-    return aims.from_to(random.chance() ? aims.outside() : aims.feature(), aims.feature());
+    return aims.at_feature(random.chance() ? aims.outside() : aims.feature());
 }
 
 // Every object has a corner, its centre or its surface at one point.
@@ -174,9 +179,10 @@ Scene at_one_point(Random& random) {
             case 2:
                 add(scene, placed(closed_mesh(random, 0, 0.2), random, Matrix3{}, p));
                 break;
-            default:
-                add(scene,
-                    single(p, random.keep(p + random.point(3)), random.keep(p + random.point(3))));
+            default: {
+                const Point3 b = random.keep(p + random.point(3));
+                add(scene, single(p, b, random.keep(p + random.point(3))));
+            }
         }
     }
     return scene;
@@ -216,7 +222,7 @@ Scene across_one_plane(Random& random) {
 }
 
 Ray in_one_plane(const Scene&, Aims& aims, Random& random) {
-    Ray ray = aims.from_to(aims.outside(), aims.feature());
+    Ray ray = aims.at_feature(aims.outside());
     if (random.chance()) {
         ray.origin.z = random.zero();
         ray.direction.z = random.zero();

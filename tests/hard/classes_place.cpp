@@ -7,7 +7,8 @@ Scene mix(Random& random) { return mixed_scene(random, 40); }
 
 Scene moved(Random& random) {
     Scene scene = random.chance() ? lattice_scene(random) : mixed_scene(random, 30);
-    place(scene, random, 1, Vector3{1e6 * random.sign(), 1e6, -1e6} * (random.chance() ? 1 : 8));
+    const Vector3 way{1e6 * random.sign(), 1e6, -1e6};
+    place(scene, random, 1, way * (random.chance() ? 1 : 8));
     return scene;
 }
 
@@ -28,11 +29,13 @@ Ray everywhere(const Scene&, Aims& aims, Random& random) {
         case 1:
             return aims.in_split_plane();
         case 2:
-            return aims.from_to(aims.feature(), aims.feature());
-        case 3:
-            return aims.from_to(aims.outside(), aims.middle(aims.object()));
+            return aims.at_feature(aims.feature());
+        case 3: {
+            const Point3 from = aims.outside();
+            return aims.from_to(from, aims.middle(aims.object()));
+        }
         default:
-            return aims.from_to(aims.outside(), aims.feature());
+            return aims.at_feature(aims.outside());
     }
 }
 
@@ -79,8 +82,8 @@ Ray starting_on_a_surface(const Scene&, Aims& aims, Random& random) {
 
 Ray starting_inside(const Scene&, Aims& aims, Random& random) {
     const Object& object = aims.object();
-    const Point3 from =
-        aims.middle(object) + random.unit() * (aims.half_size(object) * random.uniform(0, 1));
+    const Vector3 way = random.unit();
+    const Point3 from = aims.middle(object) + way * (aims.half_size(object) * random.uniform(0, 1));
     return aims.from_to(from, random.chance() ? aims.feature(object) : aims.feature());
 }
 
@@ -99,7 +102,7 @@ Ray from_afar(const Scene& scene, Aims& aims, Random& random) {
     if (random.below(4) == 0) {
         const Object& object = scene.objects[0];
         if (!std::holds_alternative<TriangleMesh>(object.shape))
-            return aims.grazing(object, from, random.sign() * random.power_of_ten(-12, -1));
+            return aims.grazing(object, from, random.signed_power_of_ten(-12, -1));
     }
     return aims.from_to(from, random.below(3) == 0 ? Point3{} : aims.feature());
 }

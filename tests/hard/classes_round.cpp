@@ -13,8 +13,9 @@ Scene spheres(Random& random) {
 // At (1 +- 1e-8 .. 1e-3) R; with all digits down to 1e-16.
 Ray graze(const Scene&, Aims& aims, Random& random) {
     const double least = random.coordinates() == Coordinates::kDouble ? -16 : -8;
-    const double offset = random.sign() * random.power_of_ten(least, -3);
-    return aims.grazing(aims.object(), aims.outside(), offset);
+    const double offset = random.signed_power_of_ten(least, -3);
+    const Object& object = aims.object();
+    return aims.grazing(object, aims.outside(), offset);
 }
 
 // Radii of 5/8 k: lines along an axis, or along (4, -3, 0), are tangent exactly.
@@ -36,7 +37,8 @@ Ray exactly_tangent(const Scene&, Aims& aims, Random& random) {
     Ray ray{sphere.center, {}};
     if (random.chance()) {
         ray.origin[axis] += sign * sphere.radius;
-        ray.direction[(axis + 1) % 3] = random.sign() * (1 + random.below(3));
+        const double sense = random.sign();
+        ray.direction[(axis + 1) % 3] = sense * (1 + random.below(3));
     } else {
         ray.origin[axis] += sign * 3 * (sphere.radius / 5);
         ray.origin[(axis + 1) % 3] += sign * 4 * (sphere.radius / 5);
@@ -51,7 +53,8 @@ Ray exactly_tangent(const Scene&, Aims& aims, Random& random) {
 Scene tiny_and_far(Random& random) {
     Scene scene;
     for (int i = 0; i < 30; ++i) {
-        const Point3 center = random.keep(random.unit() * random.power_of_ten(4, 6));
+        const Vector3 way = random.unit();
+        const Point3 center = random.keep(way * random.power_of_ten(4, 6));
         const double size = random.keep(random.power_of_ten(-4, -1));
         switch (random.below(3)) {
             case 0:
@@ -72,7 +75,7 @@ Ray from_near_the_origin(const Scene&, Aims& aims, Random& random) {
     const Object& object = aims.object();
     const Point3 from = random.point(10);
     if (random.chance() && !std::holds_alternative<TriangleMesh>(object.shape))
-        return aims.grazing(object, from, random.sign() * random.power_of_ten(-8, -1));
+        return aims.grazing(object, from, random.signed_power_of_ten(-8, -1));
     return aims.from_to(from, aims.feature(object));
 }
 
@@ -101,8 +104,7 @@ Ray over_the_horizon(const Scene& scene, Aims& aims, Random& random) {
         case 0:
             return aims.from_to(eye, aims.feature());
         case 1:
-            return aims.grazing(scene.objects[0], eye,
-                                random.sign() * random.power_of_ten(-14, -3));
+            return aims.grazing(scene.objects[0], eye, random.signed_power_of_ten(-14, -3));
         case 2:
             return aims.from_to(eye, eye + random.unit() + Vector3{0, -0.5, 0});
         default:
@@ -145,7 +147,7 @@ Scene ellipsoids(Random& random) {
 
 Ray at_ellipsoids(const Scene& scene, Aims& aims, Random& random) {
     if (random.chance()) return graze(scene, aims, random);
-    return aims.from_to(random.below(4) == 0 ? aims.feature() : aims.outside(), aims.feature());
+    return aims.at_feature(random.below(4) == 0 ? aims.feature() : aims.outside());
 }
 
 }  // namespace

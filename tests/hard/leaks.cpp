@@ -31,9 +31,11 @@ ClosedScene closed_scene(Random& random) {
         case 1:
             closed.linear = scaling({std::exp2(random.below(12)), 1, std::exp2(-random.below(8))});
             break;
-        case 2:
-            closed.linear = rotation(random.unit(), 1) * scaling({1, random.uniform(0.01, 1), -1});
+        case 2: {
+            const Matrix3 turn = rotation(random.unit(), 1);
+            closed.linear = turn * scaling({1, random.uniform(0.01, 1), -1});
             break;
+        }
         default: {
             const double scale = std::pow(10, random.below(31) - 15);
             closed.linear = scaling({scale, scale, scale});
@@ -77,7 +79,8 @@ std::uint64_t leaks_of_batch(std::uint64_t number, std::uint64_t rays_wanted, st
     const Octree octree = build_tree(closed.scene, primitives, profile);
     std::vector<Ray> rays;
     for (std::uint64_t i = 0; i < rays_wanted; ++i) {
-        const Point3 inside = random.unit() * (random.below(4) * 0.125);
+        const Vector3 way = random.unit();
+        const Point3 inside = way * (random.below(4) * 0.125);
         const Point3 from = random.keep(closed.linear * inside + closed.move);
         rays.push_back({from, random.keep(target(mesh, random) - from)});
     }

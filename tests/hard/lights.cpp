@@ -41,8 +41,12 @@ Light any_light(const Scene& scene, Aims& aims, Random& random) {
     light.color = any_color(random);
     light.intensity = random.uniform(0.3, 1);
     light.ambient_intensity = random.chance() ? 0 : random.uniform(0, 1);
-    light.location =
-        random.chance() ? middle + random.unit() * (size * random.uniform(1.2, 6)) : aims.outside();
+    if (random.chance()) {
+        const Vector3 way = random.unit();
+        light.location = middle + way * (size * random.uniform(1.2, 6));
+    } else {
+        light.location = aims.outside();
+    }
     light.direction = normalized(random.chance() ? middle - light.location : random.unit());
     const double distance = length(middle - light.location);
     light.radius =

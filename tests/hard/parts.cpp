@@ -86,10 +86,12 @@ Matrix3 distortion(Random& random) {
             m.row[0].y = random.coordinate(2);
             m.row[1].z = random.coordinate(2);
             break;
-        case 2:
-            m = rotation(random.unit(), random.uniform(0, 3)) *
-                scaling({1, random.power_of_ten(-6, 0), 1});
+        case 2: {
+            const Vector3 axis = random.unit();
+            const Matrix3 turn = rotation(axis, random.uniform(0, 3));
+            m = turn * scaling({1, random.power_of_ten(-6, 0), 1});
             break;
+        }
         default:
             m = {{random.unit(), random.unit(), random.unit()}};
     }

@@ -29,6 +29,10 @@ class Random {
     }
     /// 10^x with x uniform: all sizes are as likely.
     double power_of_ten(double low, double high) { return std::pow(10, uniform(low, high)); }
+    double signed_power_of_ten(double low, double high) {
+        const double s = sign();
+        return s * power_of_ten(low, high);
+    }
 
     /// The nearest number that the input may hold: a float, or any double.
     double keep(double v) const {

@@ -25,8 +25,8 @@ double any_double(std::mt19937_64& engine) {
 
 /// Doubles of like size, that cancel.
 double near_one(std::mt19937_64& engine) {
-    return static_cast<double>(static_cast<int>(engine() % 2001) - 1000) * 0x1p-7 +
-           (engine() % 2 != 0 ? static_cast<double>(engine() % 1024) * 0x1p-52 : 0.0);
+    const double coarse = static_cast<double>(static_cast<int>(engine() % 2001) - 1000) * 0x1p-7;
+    return coarse + (engine() % 2 != 0 ? static_cast<double>(engine() % 1024) * 0x1p-52 : 0.0);
 }
 
 int sign(const Rational& r) { return r < 0 ? -1 : r > 0 ? 1 : 0; }

@@ -159,7 +159,8 @@ Ray ray_of_any_size(std::mt19937_64& random, double scale) {
     Ray ray;
     const int longest = exponent(random);
     for (int k = 0; k < 3; ++k) {
-        ray.direction[k] = std::ldexp(place(random), std::min(longest, exponent(random)));
+        const double part = place(random);
+        ray.direction[k] = std::ldexp(part, std::min(longest, exponent(random)));
         if (ray.direction[k] == 0) ray.direction[k] = kUnderflow;
     }
     const double back = std::ldexp(1.0, exponent(random) / 2);

@@ -15,9 +15,9 @@ TEST(BallMap, IsAsNearToTheTrueOneAsItSays) {
     double stretched = 0;
     int sure = 0;
     for (int round = 0; round < 4000; ++round) {
-        const Ellipsoid e =
-            random_ellipsoid(random, uniform_point(random, 1), std::exp2(uniform(random, -20, -1)),
-                             round % 2 == 0 ? -1 : -8);
+        const Point3 center = uniform_point(random, 1);
+        const double radius = std::exp2(uniform(random, -20, -1));
+        const Ellipsoid e = random_ellipsoid(random, center, radius, round % 2 == 0 ? -1 : -8);
         LocalFrame frame;
         frame.scale = std::exp2(static_cast<double>(random() % 8) - 4);
         const BallMap map = ball_map(e, frame);

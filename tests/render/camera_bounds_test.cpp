@@ -69,7 +69,8 @@ Triangle triangle_before(std::mt19937_64& random, const Point3& eye, const View&
                middle + uniform_point(random, size)};
     const double small = std::exp2(uniform(random, -46, -20));
     if (kind == 1) {  // a needle that points at the eye
-        t.b = t.a + (t.a - eye) * uniform(random, 0.1, 2) + uniform_point(random, small);
+        const double part = uniform(random, 0.1, 2);
+        t.b = t.a + (t.a - eye) * part + uniform_point(random, small);
     } else if (kind == 2) {  // its plane passes close to the eye
         const Vector3 across = normalized(cross(way, uniform_point(random, 1)));
         t.b = t.a + way * size + across * (size * small);
@@ -78,7 +79,8 @@ Triangle triangle_before(std::mt19937_64& random, const Point3& eye, const View&
         t.c = middle + normalized(uniform_point(random, 1)) * size;
         t.c = t.a + (t.b - t.a) * 0.5 + across * size;
     } else if (kind == 3) {  // thin
-        t.c = t.a + (t.b - t.a) * uniform(random, 0, 1) + uniform_point(random, size * small);
+        const double part = uniform(random, 0, 1);
+        t.c = t.a + (t.b - t.a) * part + uniform_point(random, size * small);
     } else if (kind == kTelescope) {  // edges through all of the little that is seen
         t.a = middle;
     } else if (kind == 4) {  // tiny, all numbers exact
@@ -121,8 +123,8 @@ TEST(CameraBounds, HoldTheFunctionsOfTriangles) {
         double widest[4] = {};
         int judged[kKinds] = {};
         for (int round = 0; round < 300; ++round) {
-            const View view(random_camera(random, round % kKinds == kTelescope),
-                            std::exp2(-static_cast<int>(random() % 8)));
+            const Camera camera = random_camera(random, round % kKinds == kTelescope);
+            const View view(camera, std::exp2(-static_cast<int>(random() % 8)));
             const Point3& eye = view.scene.camera.position;
             TriangleBatch batch{};
             for (std::size_t i = 0; i < TriangleBatch::kSize; ++i) {
@@ -183,8 +185,8 @@ TEST(CameraBounds, HoldTheFunctionsOfTrianglesMadeExactly) {
     int judged = 0;
     double widest[4] = {};
     for (int round = 0; round < 600; ++round) {
-        const View view(random_camera(random, round % kKinds == kTelescope),
-                        std::exp2(-static_cast<int>(random() % 8)));
+        const Camera camera = random_camera(random, round % kKinds == kTelescope);
+        const View view(camera, std::exp2(-static_cast<int>(random() % 8)));
         const Point3& eye = view.scene.camera.position;
         const Triangle t = triangle_before(random, eye, view, round % kKinds);
         CameraTriangle made{};

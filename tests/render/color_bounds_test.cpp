@@ -173,7 +173,8 @@ class TieMaker {
 
   private:
     double off_tie() {
-        return std::exp2(uniform(random_, -40, -16)) * (random_() % 2 != 0 ? 1 : -1);
+        const double off = std::exp2(uniform(random_, -40, -16));
+        return random_() % 2 != 0 ? off : -off;
     }
     // Off by its error, and by what finish() itself allows for the sums.
     void put(float (&sum)[3][kTileLanes], float (&error)[kTileLanes], int lane, double truth,

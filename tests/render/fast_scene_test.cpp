@@ -198,8 +198,8 @@ Object random_mesh(Random& random, int count, const Point3& place, double scale)
         const double size = std::exp2(random.number(-9, 0));
         const Point3 a = random.point(1);
         const Vector3 e = random.point(size);
-        const Vector3 f =
-            i % 3 == 0 ? e * random.number(0, 1) + random.point(size * 1e-4) : random.point(size);
+        const Vector3 along = i % 3 == 0 ? e * random.number(0, 1) : Vector3{};
+        const Vector3 f = along + random.point(i % 3 == 0 ? size * 1e-4 : size);
         const auto first = static_cast<std::uint32_t>(mesh.positions.size());
         for (const Point3& p : {a, a + e, a + f}) mesh.positions.push_back(place + p * scale);
         mesh.triangles.push_back({first, first + 1, first + 2});

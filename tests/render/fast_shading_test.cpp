@@ -249,7 +249,9 @@ class RandomText {
         return std::to_string(std::uniform_real_distribution<double>(low, high)(random_));
     }
     std::string triple(double low = 0, double high = 1) {
-        return number(low, high) + " " + number(low, high) + " " + number(low, high);
+        std::string three = number(low, high);
+        for (int i = 1; i < 3; ++i) three += " " + number(low, high);
+        return three;
     }
 
   private:
@@ -266,16 +268,17 @@ std::string random_nodes(unsigned seed) {
         << "'/><DirectionalLight direction='" << r.triple(-1, 1) << "' intensity='" << r.number()
         << "'/>";
     for (int i = 0; i < 12; ++i) {
-        const std::string material = "diffuseColor='" + r.triple() + "' ambientIntensity='" +
-                                     r.number() + "' emissiveColor='" + r.triple(0, 0.2) +
-                                     (i % 3 == 0 ? "' specularColor='" + r.triple() : "") +
-                                     "' shininess='" + r.number() + "'";
+        std::ostringstream material;
+        material << "diffuseColor='" << r.triple() << "' ambientIntensity='" << r.number()
+                 << "' emissiveColor='" << r.triple(0, 0.2)
+                 << (i % 3 == 0 ? "' specularColor='" + r.triple() : "") << "' shininess='"
+                 << r.number() << "'";
         out << "<Transform translation='" << r.triple(-3, 3) << "' rotation='" << r.triple(-1, 1)
             << " " << r.number(0, 3) << "' scale='"
             << (i % 4 == 1 ? r.triple(0.3, 1) : std::string("1 1 1")) << "'>"
-            << shape(material, i % 2 == 0
-                                   ? "<Sphere radius='" + r.number(0.05, 1) + "'/>"
-                                   : "<Cone solid='false' height='" + r.number(0.2, 2) + "'/>")
+            << shape(material.str(),
+                     i % 2 == 0 ? "<Sphere radius='" + r.number(0.05, 1) + "'/>"
+                                : "<Cone solid='false' height='" + r.number(0.2, 2) + "'/>")
             << "</Transform>";
     }
     return out.str();

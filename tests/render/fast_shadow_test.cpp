@@ -221,8 +221,8 @@ Point3 behind(std::mt19937_64& random, const Triangle& t, const Light& light) {
     const Vector3 away =
         light.kind == Light::Kind::kDirectional ? light.direction : on_it - light.location;
     const double steps = std::exp2(uniform(random, -30, 0));
-    return on_it + normalized(away) * steps +
-           uniform_point(random, 1) * std::exp2(uniform(random, -40, -2));
+    const Vector3 off = uniform_point(random, 1);
+    return on_it + normalized(away) * steps + off * std::exp2(uniform(random, -40, -2));
 }
 
 TEST(ShadowPlanes, NeverContradictTheExactPredicateWhereTheyAreSure) {

@@ -28,11 +28,12 @@ Scene cluster_on_a_floor(std::mt19937_64& random, double width, int count) {
         triangle_of({-width, -1.5, -width}, {0, 0, 2.5 * width}, {3 * width, 0, 0}));
     for (int i = 0; i < count; ++i) {
         const Point3 at = uniform_point(random, 1);
-        if (i % 4 == 0)
+        if (i % 4 == 0) {
             scene.objects.push_back({Sphere{at, uniform(random, 0.01, 0.1)}, 0, 0});
-        else
-            scene.objects.push_back(
-                triangle_of(at, uniform_point(random, 0.1), uniform_point(random, 0.1)));
+        } else {
+            const Vector3 e1 = uniform_point(random, 0.1);
+            scene.objects.push_back(triangle_of(at, e1, uniform_point(random, 0.1)));
+        }
     }
     for (Object& object : scene.objects) object.solid = false;
     Light lamp;
