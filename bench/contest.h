@@ -34,6 +34,7 @@ struct SurveyRow {
 
 /// Every way of asking Embree that was tried, and the fastest.
 struct Survey {
+    std::string version;  ///< of Embree
     EmbreeOptions options;
     EmbreeMode mode;
     std::vector<SurveyRow> rows;

@@ -137,7 +137,7 @@ void EmbreeFrame::make_rays(int x0, int y0, RTCRayHitNt<N>& pack, std::array<int
 template <int N>
 void EmbreeFrame::trace_primary(Tile& tile, const EmbreeMode& mode, Depth depth,
                                 Image& image) const {
-    RTCIntersectContext context = context_for(mode.primary_coherent);
+    RayQuery query(mode.primary_coherent);
     alignas(64) RTCRayHitNt<N> pack;
     alignas(64) std::array<int, N> valid;
     tile.lit_count = 0;
@@ -147,7 +147,7 @@ void EmbreeFrame::trace_primary(Tile& tile, const EmbreeMode& mode, Depth depth,
         const int y0 = tile.y0 + block / kAcross * Block<N>::kHeight;
         if (x0 >= resolution_.width || y0 >= resolution_.height) continue;
         make_rays<N>(x0, y0, pack, valid);
-        intersect<N>(valid.data(), scene_.handle(), context, pack);
+        intersect<N>(valid.data(), scene_.handle(), query, pack);
         if (depth == Depth::kPrimary) continue;
         for (int i = 0; i < N; ++i) {
             if (valid[i] == 0) continue;
@@ -166,7 +166,7 @@ void EmbreeFrame::trace_primary(Tile& tile, const EmbreeMode& mode, Depth depth,
 
 template <int N>
 void EmbreeFrame::trace_shadow_packets(Tile& tile, const EmbreeMode& mode) const {
-    RTCIntersectContext context = context_for(mode.shadow_coherent);
+    RayQuery query(mode.shadow_coherent);
     alignas(64) RTCRayNt<N> pack;
     alignas(64) std::array<int, N> valid;
     for (int first = 0; first < tile.shadow_count; first += N) {
@@ -186,7 +186,7 @@ void EmbreeFrame::trace_shadow_packets(Tile& tile, const EmbreeMode& mode) const
             pack.mask[i] = ~0U;
             pack.flags[i] = 0;
         }
-        occluded<N>(valid.data(), scene_.handle(), context, pack);
+        occluded<N>(valid.data(), scene_.handle(), query, pack);
         for (int i = 0; i < N && first + i < tile.shadow_count; ++i)
             tile.blocked[first + i] = pack.tfar[i] < 0;
     }

@@ -10,7 +10,7 @@ namespace nuvo::bench {
 
 std::vector<SingleHit> closest_hits(const EmbreeScene& scene, std::span<const Ray> rays) {
     const FlushDenormals flush;
-    RTCIntersectContext context = context_for(false);
+    RayQuery query(false);
     std::vector<SingleHit> hits;
     hits.reserve(rays.size());
     for (const Ray& ray : rays) {
@@ -29,7 +29,7 @@ std::vector<SingleHit> closest_hits(const EmbreeScene& scene, std::span<const Ra
                    0,
                    0};
         one.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-        rtcIntersect1(scene.handle(), &context, &one);
+        call(rtcIntersect1, nullptr, scene.handle(), query, &one);
         hits.push_back({one.hit.geomID != RTC_INVALID_GEOMETRY_ID,
                         one.hit.geomID == scene.sphere_geometry(), one.hit.primID, one.ray.tfar});
     }

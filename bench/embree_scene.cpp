@@ -1,10 +1,12 @@
 #include "embree_scene.h"
 
+#include <sched.h>
+
 #include <algorithm>
 #include <atomic>
 #include <stdexcept>
 
-// Embree 3.13 as its manual says to use it: buffers shared instead of copied, one geometry for all
+// Embree as its manual says to use it: buffers shared instead of copied, one geometry for all
 // triangles, so that there is one hierarchy without instances. [Wald et al., Embree: a kernel
 // framework for efficient CPU ray tracing, 2014]
 
@@ -30,14 +32,41 @@ void throw_embree_error(void*, RTCError, const char* text) {
     throw std::runtime_error(std::string("Embree: ") + text);
 }
 
+/// Lets this thread run on one processor only while it lives.
+class OneProcessor {
+  public:
+    OneProcessor() {
+        sched_getaffinity(0, sizeof before_, &before_);
+        cpu_set_t one;
+        CPU_ZERO(&one);
+        CPU_SET(sched_getcpu(), &one);
+        sched_setaffinity(0, sizeof one, &one);
+    }
+    OneProcessor(const OneProcessor&) = delete;
+    OneProcessor& operator=(const OneProcessor&) = delete;
+    ~OneProcessor() { sched_setaffinity(0, sizeof before_, &before_); }
+
+  private:
+    cpu_set_t before_;
+};
+
+/// A device that builds with one thread. TBB counts the processors when the first is made. If it
+/// saw more, its version 2021.12 would leave a worker spinning beside the frames of later devices,
+/// although they have one thread, and halve their speed where it shares a core with them.
+/// [github.com/uxlfoundation/oneTBB/issues/1417]
+RTCDevice new_device(const std::string& isa) {
+    const OneProcessor one;
+    const std::string config = isa.empty() ? "threads=1" : "threads=1,isa=" + isa;
+    const RTCDevice device = rtcNewDevice(config.c_str());
+    if (device == nullptr) throw std::runtime_error("Embree makes no device for " + config);
+    return device;
+}
+
 }  // namespace
 
 EmbreeScene::EmbreeScene(const FloatScene& scene, const EmbreeOptions& options)
     : floats_(scene), meter_(std::make_unique<Meter>()) {
-    std::string config = "threads=" + std::to_string(options.threads);
-    if (!options.isa.empty()) config += ",isa=" + options.isa;
-    device_ = rtcNewDevice(config.c_str());
-    if (device_ == nullptr) throw std::runtime_error("Embree makes no device for " + config);
+    device_ = new_device(options.isa);
     rtcSetDeviceErrorFunction(device_, throw_embree_error, nullptr);
     rtcSetDeviceMemoryMonitorFunction(device_, Meter::count, meter_.get());
     scene_ = rtcNewScene(device_);
@@ -55,6 +84,14 @@ EmbreeScene::~EmbreeScene() {
 EmbreeMemory EmbreeScene::memory() const {
     return {static_cast<std::size_t>(std::max<std::ptrdiff_t>(meter_->bytes, 0)),
             static_cast<std::size_t>(std::max<std::ptrdiff_t>(meter_->peak, 0))};
+}
+
+std::string EmbreeScene::version() const {
+    const auto part = [&](RTCDeviceProperty property) {
+        return std::to_string(rtcGetDeviceProperty(device_, property));
+    };
+    return part(RTC_DEVICE_PROPERTY_VERSION_MAJOR) + "." + part(RTC_DEVICE_PROPERTY_VERSION_MINOR) +
+           "." + part(RTC_DEVICE_PROPERTY_VERSION_PATCH);
 }
 
 void EmbreeScene::add_triangles() {

@@ -1,11 +1,10 @@
 #pragma once
 
-#include <embree3/rtcore.h>
-
 #include <cstddef>
 #include <memory>
 #include <string>
 
+#include "embree_calls.h"
 #include "float_scene.h"
 
 namespace nuvo::bench {
@@ -16,12 +15,11 @@ enum class SphereKind {
     kPoint,  ///< RTC_GEOMETRY_TYPE_SPHERE_POINT
 };
 
-/// What is chosen before Embree builds.
+/// What is chosen before Embree builds, with one thread.
 struct EmbreeOptions {
     std::string isa;  ///< of its device configuration, e.g. "avx2"; empty: the best
     RTCBuildQuality quality = RTC_BUILD_QUALITY_MEDIUM;
     SphereKind spheres = SphereKind::kUser;
-    int threads = 1;  ///< of the build
 };
 
 /// Bytes that Embree holds. The vertices, indices and spheres given to it are not among them.
@@ -44,6 +42,8 @@ class EmbreeScene {
     /// The geometry that spheres carry in hits; triangles carry the other.
     unsigned sphere_geometry() const { return sphere_geometry_; }
     EmbreeMemory memory() const;
+    /// Of the library that runs, e.g. "3.13.5".
+    std::string version() const;
 
   private:
     struct Meter;

@@ -130,6 +130,7 @@ void write_embree(app::JsonWriter& json, const EmbreeSamples& samples) {
 void write_survey(app::JsonWriter& json, const Survey& survey) {
     json.key("embree_survey");
     json.begin_object();
+    json.member("version", survey.version);
     json.member("primary_width", survey.mode.primary_width);
     json.member("primary_coherent", survey.mode.primary_coherent);
     json.member("shadow_width", survey.mode.shadow_width);

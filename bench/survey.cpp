@@ -74,6 +74,7 @@ Survey survey_embree(const FloatScene& scene, const ContestOptions& options) {
         EmbreeOptions tried = survey.options;
         tried.spheres = kind;
         const EmbreeScene built(scene, tried);
+        survey.version = built.version();
         const EmbreeFrame frame(built, options.resolution);
         EmbreeMode mode;
         std::vector<SurveyRow> rows;

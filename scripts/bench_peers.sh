@@ -23,6 +23,7 @@ Flags:
   --out=DIR        where scenes and results go (results/peers in the project)
   --docs           put the tables into docs/performance.md
   -h, --help       this text
+Embree 4 is taken where it is installed (CMAKE_PREFIX_PATH=DIR in the environment tells where), 3.13 else.
 TEXT
 }
 

@@ -364,6 +364,10 @@ def main():
         sys.exit(f"peers.py: {arguments.folder / 'raw'}: no results")
     environment = {"commit": arguments.commit, "compiler": arguments.compiler,
                    "processor": processor_text(), "type": arguments.type}
+    versions = {result["embree_survey"].get("version", "of a version not noted")
+                for result in results.values() if "embree_survey" in result}
+    if versions:
+        environment["embree"] = ", ".join(sorted(versions))
     tables = {"machine": "".join(f"- {key}: {value}\n" for key, value in environment.items())}
     tables.update(Report(results, arguments.type).tables())
     text = "\n".join(f"## {name}\n\n{content}" for name, content in tables.items())
