@@ -29,15 +29,12 @@ struct BoxInFours {
     Four high;
 };
 
-/// Which sides of a voxel's three planes boxes touch, bit 0, 1, 2 the lower sides, 3, 4, 5 the
-/// upper; and on which axes they reach out of the voxel: 6, 7, 8.
+/// Which sides of a voxel's three planes boxes touch: bit 0, 1, 2 the lower sides, 3, 4, 5 the
+/// upper.
 class SidesOfPlanes {
   public:
-    SidesOfPlanes(const Vec3<float>& planes, const Bounds3T<float>& voxel)
-        : planes_(four(planes)),
-          planes_later_{0, planes.x, planes.y, planes.z},
-          first_(four(voxel.min)),
-          last_{0, voxel.max.x, voxel.max.y, voxel.max.z} {}
+    explicit SidesOfPlanes(const Vec3<float>& planes)
+        : planes_(four(planes)), planes_later_{0, planes.x, planes.y, planes.z} {}
 
     std::uint32_t of(const Bounds3T<float>& box) const {
         Four low;
@@ -45,9 +42,7 @@ class SidesOfPlanes {
         std::memcpy(&low, &box.min.x, sizeof(Four));
         std::memcpy(&high, &box.min.z, sizeof(Four));
         const FourInts bits = ((low <= planes_) & FourInts{1, 2, 4, 0}) |
-                              ((high >= planes_later_) & FourInts{0, 8, 16, 32}) |
-                              ((low < first_) & FourInts{64, 128, 256, 0}) |
-                              ((high > last_) & FourInts{0, 64, 128, 256});
+                              ((high >= planes_later_) & FourInts{0, 8, 16, 32});
         const FourInts halves = bits | __builtin_shufflevector(bits, bits, 2, 3, 0, 1);
         std::uint64_t both;
         std::memcpy(&both, &halves, sizeof both);
@@ -57,8 +52,6 @@ class SidesOfPlanes {
   private:
     Four planes_;
     Four planes_later_;
-    Four first_;
-    Four last_;
 };
 
 }  // namespace nuvo

@@ -53,8 +53,9 @@ struct SplitMasks {
 };
 
 /// The cut of a voxel with these items, if there is one that is worth trying; the octants of the
-/// items are then in masks.kept. `mark(cut, masks)` sets the octants and returns their counts.
-/// Where the sweep finds little, because it sees the items' boxes only, the centre is tried, too.
+/// items are then in masks.kept. `mark(cut, items, masks)` sets the octants and returns their
+/// counts. Where the sweep finds little, because it sees the items' boxes only, the centre is
+/// tried, too.
 template <typename Mark>
 std::optional<Split> find_split(const Recipe& recipe, const Place& place, ItemSpan items,
                                 SplitMasks& masks, Mark&& mark) {
@@ -66,7 +67,7 @@ std::optional<Split> find_split(const Recipe& recipe, const Place& place, ItemSp
     const auto attempt = [&](CutRule by, std::vector<std::uint8_t>& out) -> std::optional<Split> {
         const std::optional<CutVoxel> cut = choose_cut(by, place.voxel, items, recipe.boxes);
         if (!cut) return std::nullopt;
-        return Split{*cut, mark(*cut, out.data())};
+        return Split{*cut, mark(*cut, items, out.data())};
     };
     std::optional<Split> split = attempt(recipe.rule, masks.kept);
     if (recipe.rule == CutRule::kSweep && items.size() >= kManyItems &&

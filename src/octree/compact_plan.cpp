@@ -19,15 +19,15 @@ constexpr std::size_t kChunk = 8192;        // items of a voxel that a thread ma
 
 class Planner {
   public:
-    explicit Planner(const Recipe& recipe) : recipe_(recipe) {
-        for (int i = 0; i < recipe.threads; ++i)
-            markers_.emplace_back(recipe.boxes, recipe.overlaps);
-    }
+    explicit Planner(const Recipe& recipe)
+        : recipe_(recipe), marker_(recipe.boxes, recipe.overlaps) {}
 
     std::optional<Split> try_split(const PlanNode& node) {
-        const std::optional<Split> split = find_split(
-            recipe_, node.place, node.items, masks_,
-            [&](const CutVoxel& cut, std::uint8_t* masks) { return mark(cut, node.items, masks); });
+        const std::optional<Split> split =
+            find_split(recipe_, node.place, node.items, masks_,
+                       [&](const CutVoxel& cut, ItemSpan items, std::uint8_t* masks) {
+                           return mark(cut, items, masks);
+                       });
         return split && split->occupied() != 0 ? split : std::nullopt;
     }
 
@@ -61,10 +61,10 @@ class Planner {
     std::array<std::size_t, 8> mark(const CutVoxel& voxel, ItemSpan items, std::uint8_t* masks) {
         const std::size_t chunks = chunks_of(items.size());
         std::vector<std::array<std::size_t, 8>> counts(chunks);
-        for_each_index(recipe_.threads, chunks, [&](std::size_t i, int thread) {
+        for_each_index(recipe_.threads, chunks, [&](std::size_t i, int) {
             const auto [begin, end] = chunk(i, items.size());
             const ItemSpan part = items.subspan(begin, end - begin);
-            counts[i] = markers_[static_cast<std::size_t>(thread)].mark(voxel, part, masks + begin);
+            counts[i] = marker_.mark(voxel, part, masks + begin);
         });
         std::array<std::size_t, 8> sums{};
         for (const auto& part : counts)
@@ -73,7 +73,7 @@ class Planner {
     }
 
     const Recipe& recipe_;
-    std::vector<OctantMarker> markers_;
+    OctantMarker marker_;
     SplitMasks masks_;
 };
 

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "box_lanes.h"
 
-// One cut: the octants that an item's box touches follow from comparisons with the planes; of items
-// in more than one octant only those are tested any further, all of a voxel together, that may miss
-// one.
+// One cut: the octants that an item's box touches follow from comparisons with the planes. Where
+// items are so large for their voxel that boxes tell little, the items themselves are tested.
 
 namespace nuvo {
 namespace {
@@ -16,28 +16,29 @@ namespace {
 // random, touch more than half of the octants: 1.1.
 constexpr double kHope = 1.3;
 
+// Where items touch more octants than this by their boxes, on average, the items are tested: above
+// many other voxels, where a mistake goes on and on, sooner.
+constexpr std::size_t kManyOctants = 4;
+constexpr std::size_t kManyOfLargeVoxel = 2;
+constexpr std::size_t kLargeVoxel = 128;  // items
+
 // Octants in the lower and in the upper half of each axis.
 constexpr std::uint8_t kLower[3] = {0x55, 0x33, 0x0f};
 constexpr std::uint8_t kUpper[3] = {0xaa, 0xcc, 0xf0};
 
-// Octants by SidesOfPlanes, and kSure where an item surely touches them all: it crosses one plane
-// only, and on the other two axes it lies within the voxel, so that it crosses that plane in there.
-constexpr std::uint16_t kSure = 0x100;
-constexpr std::array<std::uint16_t, 512> octants_of_sides() {
-    std::array<std::uint16_t, 512> table{};
-    for (unsigned sides = 0; sides < 512; ++sides) {
+// Octants by SidesOfPlanes.
+constexpr std::array<std::uint8_t, 64> octants_of_sides() {
+    std::array<std::uint8_t, 64> table{};
+    for (unsigned sides = 0; sides < 64; ++sides) {
         unsigned mask = 0xff;
         for (unsigned axis = 0; axis < 3; ++axis)
             mask &= ((sides >> axis & 1U) != 0 ? kLower[axis] : 0U) |
                     ((sides >> (axis + 3) & 1U) != 0 ? kUpper[axis] : 0U);
-        const unsigned crossed = sides & sides >> 3 & 7;
-        const unsigned outside = sides >> 6;
-        const bool sure = std::has_single_bit(crossed) && (outside & ~crossed) == 0;
-        table[sides] = static_cast<std::uint16_t>(mask | (sure ? kSure : 0U));
+        table[sides] = static_cast<std::uint8_t>(mask);
     }
     return table;
 }
-constexpr std::array<std::uint16_t, 512> kOctantsOfSides = octants_of_sides();
+constexpr std::array<std::uint8_t, 64> kOctantsOfSides = octants_of_sides();
 
 // Bit o of the index becomes byte o: eight counters in a word.
 constexpr std::array<std::uint64_t, 256> spread_bits() {
@@ -57,18 +58,37 @@ unsigned existing_octants(const CutVoxel& voxel) {
     return mask;
 }
 
+// Adds up masks, eight counters in a word for as long as none overflows.
+class OctantCounter {
+  public:
+    void add(unsigned mask) {
+        bytes_ += kSpread[mask];
+        if (++in_bytes_ == kByteRange) flush();
+    }
+    std::array<std::size_t, 8> counts() {
+        flush();
+        return counts_;
+    }
+
+  private:
+    static constexpr unsigned kByteRange = 255;
+    void flush() {
+        for (unsigned o = 0; o < 8; ++o) counts_[o] += bytes_ >> (8 * o) & 0xff;
+        bytes_ = 0;
+        in_bytes_ = 0;
+    }
+
+    std::array<std::size_t, 8> counts_{};
+    std::uint64_t bytes_ = 0;
+    unsigned in_bytes_ = 0;
+};
+
 }  // namespace
 
 std::array<std::size_t, 8> count_octants(const std::uint8_t* masks, std::size_t count) {
-    constexpr std::size_t kByteRange = 255;
-    std::array<std::size_t, 8> counts{};
-    for (std::size_t begin = 0; begin < count; begin += kByteRange) {
-        const std::size_t end = std::min(begin + kByteRange, count);
-        std::uint64_t bytes = 0;
-        for (std::size_t i = begin; i < end; ++i) bytes += kSpread[masks[i]];
-        for (unsigned o = 0; o < 8; ++o) counts[o] += bytes >> (8 * o) & 0xff;
-    }
-    return counts;
+    OctantCounter counter;
+    for (std::size_t i = 0; i < count; ++i) counter.add(masks[i]);
+    return counter.counts();
 }
 
 // Items on surfaces stand the root's width / sqrt(count) apart if they fill it evenly. Up to
@@ -100,45 +120,22 @@ bool Prices::worth_trying(const Split& split, std::size_t count) const {
 }
 
 std::array<std::size_t, 8> OctantMarker::mark(const CutVoxel& voxel, ItemSpan items,
-                                              std::uint8_t* masks) {
-    const std::size_t doubtful = mark_by_boxes(voxel, items, masks);
-    if (overlaps_ && doubtful > 0) refine(voxel, doubtful, masks);
-    return count_octants(masks, items.size());
-}
-
-std::size_t OctantMarker::mark_by_boxes(const CutVoxel& voxel, ItemSpan items,
-                                        std::uint8_t* masks) {
+                                              std::uint8_t* masks) const {
     const unsigned existing = existing_octants(voxel);
-    const SidesOfPlanes sides(voxel.cut, voxel.bounds);
-    if (doubtful_.size() < items.size()) {
-        doubtful_.resize(items.size());
-        places_.resize(items.size());
-        candidates_.resize(items.size());
-    }
-    // Writing bytes may change anything as far as the compiler knows, but not these.
-    const Bounds3T<float>* const boxes = boxes_.data();
-    std::uint32_t* const doubtful_items = doubtful_.data();
-    std::uint32_t* const places = places_.data();
-    std::uint8_t* const candidates = candidates_.data();
-    std::size_t doubtful = 0;
+    const SidesOfPlanes sides(voxel.cut);
+    OctantCounter counter;
     for (std::size_t i = 0; i < items.size(); ++i) {
-        __builtin_prefetch(boxes + items[std::min(i + kPrefetchAhead, items.size() - 1)]);
-        const std::uint32_t item = items[i];
-        const unsigned octants = kOctantsOfSides[sides.of(boxes[item])];
-        const unsigned mask = octants & existing;
+        __builtin_prefetch(&boxes_[items[std::min(i + kPrefetchAhead, items.size() - 1)]]);
+        const unsigned mask = kOctantsOfSides[sides.of(boxes_[items[i]])] & existing;
         masks[i] = static_cast<std::uint8_t>(mask);
-        // Written always, kept where the count moves on: no branch to be guessed wrong.
-        doubtful_items[doubtful] = item;
-        places[doubtful] = static_cast<std::uint32_t>(i);
-        candidates[doubtful] = static_cast<std::uint8_t>(mask);
-        doubtful += (mask & (mask - 1)) != 0 && octants < kSure ? 1 : 0;
+        counter.add(mask);
     }
-    return doubtful;
-}
-
-void OctantMarker::refine(const CutVoxel& voxel, std::size_t doubtful, std::uint8_t* masks) {
-    overlaps_(voxel, ItemSpan(doubtful_).first(doubtful), std::span(candidates_).first(doubtful));
-    for (std::size_t i = 0; i < doubtful; ++i) masks[places_[i]] = candidates_[i];
+    const std::array<std::size_t, 8> counts = counter.counts();
+    const std::size_t octants = std::accumulate(counts.begin(), counts.end(), std::size_t{0});
+    const std::size_t many = items.size() >= kLargeVoxel ? kManyOfLargeVoxel : kManyOctants;
+    if (!overlaps_ || octants <= many * items.size()) return counts;
+    overlaps_(voxel, items, std::span(masks, items.size()));
+    return count_octants(masks, items.size());
 }
 
 void distribute(ItemSpan items, const std::uint8_t* masks, const std::array<std::size_t, 8>& first,

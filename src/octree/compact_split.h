@@ -72,23 +72,19 @@ class Prices {
     double root_count_;
 };
 
-/// Finds which octants of a cut voxel items touch. One for each thread: it keeps its buffers.
+/// Finds which octants of a cut voxel items touch: by their boxes, and where these tell little by
+/// the test, if there is one.
 class OctantMarker {
   public:
     OctantMarker(BoxSpan boxes, const OctantTest& overlaps) : boxes_(boxes), overlaps_(overlaps) {}
 
     /// Sets masks[i] for items[i] and returns how many items touch each octant.
-    std::array<std::size_t, 8> mark(const CutVoxel& voxel, ItemSpan items, std::uint8_t* masks);
+    std::array<std::size_t, 8> mark(const CutVoxel& voxel, ItemSpan items,
+                                    std::uint8_t* masks) const;
 
   private:
-    std::size_t mark_by_boxes(const CutVoxel& voxel, ItemSpan items, std::uint8_t* masks);
-    void refine(const CutVoxel& voxel, std::size_t doubtful, std::uint8_t* masks);
-
     BoxSpan boxes_;
     const OctantTest& overlaps_;
-    std::vector<std::uint32_t> doubtful_;   // items that may miss one of several octants,
-    std::vector<std::uint32_t> places_;     // their places among the items
-    std::vector<std::uint8_t> candidates_;  // and their octants
 };
 
 /// How many masks have bit o.

@@ -22,16 +22,14 @@ Subtree SubtreeBuilder::build(const Place& place, ItemSpan items) {
 }
 
 SubtreeBuilder::Built SubtreeBuilder::node(const Place& place, Run run) {
-    const std::optional<Split> split = try_split(place, items(run));
+    const std::optional<Split> split =
+        find_split(recipe_, place, items(run), masks_,
+                   [&](const CutVoxel& cut, ItemSpan items, std::uint8_t* masks) {
+                       return marker_.mark(cut, items, masks);
+                   });
     if (!split) return leaf(run);
     if (split->occupied() == 0) return leaf({run.begin, 0});  // all only came near
     return interior(place, *split, run);
-}
-
-std::optional<Split> SubtreeBuilder::try_split(const Place& place, ItemSpan items) {
-    return find_split(recipe_, place, items, masks_, [&](const CutVoxel& cut, std::uint8_t* masks) {
-        return marker_.mark(cut, items, masks);
-    });
 }
 
 SubtreeBuilder::Built SubtreeBuilder::leaf(Run run) {

@@ -37,7 +37,6 @@ class SubtreeBuilder {
     Built node(const Place& place, Run run);
     Built leaf(Run run);
     Built interior(const Place& place, const Split& split, Run run);
-    std::optional<Split> try_split(const Place& place, ItemSpan items);
     ItemSpan items(Run run) const { return ItemSpan(stack_).subspan(run.begin, run.count); }
 
     Recipe recipe_;

@@ -19,15 +19,14 @@ struct CutVoxel {
 };
 
 /// Clears in masks[i] the octants (bits as in CompactNode) in whose closed box item items[i] surely
-/// has no point. Called for many items at once, so that it can work in vectors, and by several
-/// threads at a time; not for items that surely touch all of theirs, which supposes that an item
-/// hangs together and touches each side of its box.
+/// has no point. Called for all items of a voxel or many of them at once, so that it can work in
+/// vectors, and by several threads at a time.
 using OctantTest = std::function<void(const CutVoxel& voxel, std::span<const std::uint32_t> items,
                                       std::span<std::uint8_t> masks)>;
 
 /// Prices in units of one primitive test, measured on whole frames.
 struct CompactCosts {
-    double interior = 6;  ///< a step through a node's children
+    double interior = 8;  ///< a step through a node's children
     double leaf = 2;      ///< reaching a leaf
     /// The width of the beams for which the tree is built, as a share of the widest side: a beam
     /// meets a voxel as often as a line meets one wider by this. 16 of 1080 pixels of a scene that
@@ -39,7 +38,7 @@ struct CompactBuildOptions {
     /// None: through centres, unless the sweep lists items much more seldom in a part of the scene.
     std::optional<CutRule> rule = CutRule::kSpatial;
     CompactCosts costs;
-    OctantTest overlaps;  ///< empty: the boxes decide
+    OctantTest overlaps;  ///< empty: the boxes decide everywhere
     int threads = 1;      ///< >= 1; the tree does not depend on it
     /// What the tree may hold for each item, but `free_references` in any case; a voxel's share is
     /// in proportion to its items.
@@ -49,8 +48,9 @@ struct CompactBuildOptions {
 };
 
 /// The octree of the items with these boxes (none empty; all together 2^-30 to 2^30 wide, best 1
-/// around 0, where floats are densest); an item is its index. Each leaf
-/// lists every item whose box touches the closed voxel and which `overlaps` does not exclude.
+/// around 0, where floats are densest); an item is its index. Each leaf lists every item whose box
+/// touches the closed voxel and which `overlaps` does not exclude; that is asked where the boxes of
+/// a voxel's items touch more than half of its octants on average, or of many items a quarter.
 /// O(n log n) but for items that cuts do not part.
 CompactOctree build_compact_octree(std::span<const Bounds3T<float>> boxes,
                                    const CompactBuildOptions& options);
