@@ -50,8 +50,8 @@ class LightBufferMaker {
     static constexpr int kCoarser = 8;
     // Cells of the finest grid have few items, but are not much smaller than the middle one, which
     // would be listed often.
-    static constexpr double kMostItems = 16;
-    static constexpr double kMostWide = 3;
+    static constexpr double kMostItems = 32;
+    static constexpr double kMostWide = 4.5;
     static constexpr double kLeastWide = 0.75;
     // Cells for each item on all faces: they have to be counted and added up.
     static constexpr double kMostCells = 2;
