@@ -10,6 +10,7 @@
 #include <cstring>
 
 #include "fast/simd/lanes.h"
+#include "nuvo/math/vec.h"
 
 // Vectors of 8 doubles, one for each triangle of a TriangleBatch, and the way from such columns to
 // records of 16 floats side by side.
