@@ -19,8 +19,7 @@ constexpr std::size_t kChunk = 8192;        // items of a voxel that a thread ma
 
 class Planner {
   public:
-    explicit Planner(const Recipe& recipe)
-        : recipe_(recipe), marker_(recipe.boxes, recipe.overlaps) {}
+    explicit Planner(const Recipe& recipe) : recipe_(recipe) {}
 
     std::optional<Split> try_split(const PlanNode& node) {
         const std::optional<Split> split =
@@ -64,7 +63,7 @@ class Planner {
         for_each_index(recipe_.threads, chunks, [&](std::size_t i, int) {
             const auto [begin, end] = chunk(i, items.size());
             const ItemSpan part = items.subspan(begin, end - begin);
-            counts[i] = marker_.mark(voxel, part, masks + begin);
+            counts[i] = mark_octants(recipe_.boxes, recipe_.overlaps, voxel, part, masks + begin);
         });
         std::array<std::size_t, 8> sums{};
         for (const auto& part : counts)
@@ -73,7 +72,6 @@ class Planner {
     }
 
     const Recipe& recipe_;
-    OctantMarker marker_;
     SplitMasks masks_;
 };
 

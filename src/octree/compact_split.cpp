@@ -119,22 +119,23 @@ bool Prices::worth_trying(const Split& split, std::size_t count) const {
     return count >= kManyItems && parted && cost < kHope * as_leaf;
 }
 
-std::array<std::size_t, 8> OctantMarker::mark(const CutVoxel& voxel, ItemSpan items,
-                                              std::uint8_t* masks) const {
+std::array<std::size_t, 8> mark_octants(BoxSpan boxes, const OctantTest& overlaps,
+                                        const CutVoxel& voxel, ItemSpan items,
+                                        std::uint8_t* masks) {
     const unsigned existing = existing_octants(voxel);
     const SidesOfPlanes sides(voxel.cut);
     OctantCounter counter;
     for (std::size_t i = 0; i < items.size(); ++i) {
-        __builtin_prefetch(&boxes_[items[std::min(i + kPrefetchAhead, items.size() - 1)]]);
-        const unsigned mask = kOctantsOfSides[sides.of(boxes_[items[i]])] & existing;
+        __builtin_prefetch(&boxes[items[std::min(i + kPrefetchAhead, items.size() - 1)]]);
+        const unsigned mask = kOctantsOfSides[sides.of(boxes[items[i]])] & existing;
         masks[i] = static_cast<std::uint8_t>(mask);
         counter.add(mask);
     }
     const std::array<std::size_t, 8> counts = counter.counts();
     const std::size_t octants = std::accumulate(counts.begin(), counts.end(), std::size_t{0});
     const std::size_t many = items.size() >= kLargeVoxel ? kManyOfLargeVoxel : kManyOctants;
-    if (!overlaps_ || octants <= many * items.size()) return counts;
-    overlaps_(voxel, items, std::span(masks, items.size()));
+    if (!overlaps || octants <= many * items.size()) return counts;
+    overlaps(voxel, items, std::span(masks, items.size()));
     return count_octants(masks, items.size());
 }
 

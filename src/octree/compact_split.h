@@ -72,20 +72,10 @@ class Prices {
     double root_count_;
 };
 
-/// Finds which octants of a cut voxel items touch: by their boxes, and where these tell little by
-/// the test, if there is one.
-class OctantMarker {
-  public:
-    OctantMarker(BoxSpan boxes, const OctantTest& overlaps) : boxes_(boxes), overlaps_(overlaps) {}
-
-    /// Sets masks[i] for items[i] and returns how many items touch each octant.
-    std::array<std::size_t, 8> mark(const CutVoxel& voxel, ItemSpan items,
-                                    std::uint8_t* masks) const;
-
-  private:
-    BoxSpan boxes_;
-    const OctantTest& overlaps_;
-};
+/// Sets masks[i] to the octants of a cut voxel that items[i] touches, and returns how many items
+/// touch each octant: by their boxes, and where these tell little by the test, if there is one.
+std::array<std::size_t, 8> mark_octants(BoxSpan boxes, const OctantTest& overlaps,
+                                        const CutVoxel& voxel, ItemSpan items, std::uint8_t* masks);
 
 /// How many masks have bit o.
 std::array<std::size_t, 8> count_octants(const std::uint8_t* masks, std::size_t count);

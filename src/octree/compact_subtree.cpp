@@ -25,7 +25,7 @@ SubtreeBuilder::Built SubtreeBuilder::node(const Place& place, Run run) {
     const std::optional<Split> split =
         find_split(recipe_, place, items(run), masks_,
                    [&](const CutVoxel& cut, ItemSpan items, std::uint8_t* masks) {
-                       return marker_.mark(cut, items, masks);
+                       return mark_octants(recipe_.boxes, recipe_.overlaps, cut, items, masks);
                    });
     if (!split) return leaf(run);
     if (split->occupied() == 0) return leaf({run.begin, 0});  // all only came near

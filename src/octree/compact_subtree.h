@@ -19,8 +19,7 @@ struct Subtree {
 /// Builds subtrees one after another. One for each thread: it keeps its buffers.
 class SubtreeBuilder {
   public:
-    explicit SubtreeBuilder(const Recipe& recipe)
-        : recipe_(recipe), marker_(recipe.boxes, recipe.overlaps) {}
+    explicit SubtreeBuilder(const Recipe& recipe) : recipe_(recipe) {}
 
     Subtree build(const Place& place, ItemSpan items);
 
@@ -40,7 +39,6 @@ class SubtreeBuilder {
     ItemSpan items(Run run) const { return ItemSpan(stack_).subspan(run.begin, run.count); }
 
     Recipe recipe_;
-    OctantMarker marker_;
     SplitMasks masks_;
     std::vector<std::uint32_t> stack_;  // items of the voxels between the root and this one
     std::size_t top_ = 0;
