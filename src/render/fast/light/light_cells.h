@@ -52,7 +52,7 @@ struct LightPlaces {
             depth = *at[k] * Floats(-map.sign);
             known = 0xffff;
         }
-        for (int i = 0; i < 2; ++i) step[i] = step_of(map, i, u[i]);
+        for (int i = 0; i < 2; ++i) step[i] = integers_from(step_of(map, i, u[i]));
         moved = stretch * error;
         known &= ((error <= Floats(kMostError * map.point_size)) &
                   (moved <= Floats(map.most_moved)) & (p.size() <= Floats(map.point_size)))
@@ -60,15 +60,26 @@ struct LightPlaces {
         good = known & (error <= Floats(map.point_error)).bits();
     }
 
-    /// The cells of a grid.
-    HWY_INLINE Ints cells(const LightGrid& grid) const {
-        const Ints column = cell_of(integers_from(step[0]), grid.columns);
-        const Ints row = cell_of(integers_from(step[1]), grid.rows) + face * Ints(grid.rows);
-        return column + row * Ints(grid.columns) + Ints(static_cast<std::int32_t>(grid.first_cell));
+    /// Of a grid.
+    struct Cells {
+        Ints cell;
+        Ints window;  ///< CellBox::window() of each; of several it is the highest of each byte
+    };
+    HWY_INLINE Cells cells(const LightGrid& grid) const {
+        constexpr auto kLast = static_cast<std::int32_t>(kCellSteps) - 1;
+        const Ints x = shift_right<kStepsLog2>(step[0] * Ints(grid.columns));  // as cell_step()
+        const Ints y = shift_right<kStepsLog2>(step[1] * Ints(grid.rows));
+        const Ints column = shift_right<kCellStepsLog2>(x);
+        const Ints row = shift_right<kCellStepsLog2>(y) + face * Ints(grid.rows);
+        const Ints high = (x & Ints(kLast)) | shift_left<8>(y & Ints(kLast));
+        const Ints low = Ints(kLast | kLast << 8) - high;
+        return {
+            column + row * Ints(grid.columns) + Ints(static_cast<std::int32_t>(grid.first_cell)),
+            high | shift_left<16>(low) | Ints(CellBox::kMeets)};
     }
 
     Floats u[2];
-    Floats step[2];
+    Ints step[2];  ///< of kLightSteps
     Floats depth;
     Floats moved;  ///< bounds what u is off by
     Ints face{0};
@@ -76,6 +87,10 @@ struct LightPlaces {
     std::uint32_t good;   ///< lanes for which one cell of a grid is enough
 
   private:
+    static constexpr int kCellStepsLog2 = 7;
+    static constexpr int kStepsLog2 = 9;
+    static_assert(kCellSteps == 1U << kCellStepsLog2);
+    static_assert(kLightSteps == kCellSteps << kStepsLog2);
     // In units of LightMap::point_size; worse known points may be met all over a grid, or on
     // several faces.
     static constexpr float kMostError = 0x1p-10F;

@@ -60,18 +60,12 @@ class ShadowBlock {
     /// Ends the waiting of lanes.
     HWY_INLINE void block(std::uint32_t lanes) { waiting_ &= ~lanes; }
 
-    /// The item on which all of `lanes` lie; kNoSlot: on several.
-    HWY_INLINE Slot common(std::uint32_t lanes) const {
-        const auto slot = static_cast<Slot>(slots_[std::countr_zero(lanes)]);
-        return (lanes & ~own(slot)) == 0 ? slot : kNoSlot;
-    }
     /// Asks whether the item at a place of the table hides the light from `lanes`; of other lanes
     /// it may find so, too.
     HWY_INLINE void test(const ShadowContext& context, Slot place, std::uint32_t lanes) {
         const ShadowTable& table = context.table;
         if (place < table.triangles)
-            test_triangle(
-                context, table.planes[place], [&] { return table.slot(place); }, lanes);
+            test_triangle(context, table.planes[place], table.slot(place), lanes);
         else
             test_round(context, table.slot(place), lanes);
     }
@@ -80,23 +74,19 @@ class ShadowBlock {
         if (slot >= context.job.tables.scene().triangle_end())
             test_round(context, slot, lanes);
         else if (const ShadowPlanes* const planes = context.job.walk_planes.of(context.light, slot))
-            test_triangle(
-                context, *planes, [&] { return slot; }, lanes);
+            test_triangle(context, *planes, slot, lanes);
     }
 
   private:
     // Outweighs the roundings of the sum that it multiplies.
     static constexpr float kRounded = 1 + roundings(4);
 
-    template <typename SlotOf>
     HWY_INLINE void test_triangle(const ShadowContext& context, const ShadowPlanes& planes,
-                                  SlotOf&& slot_of, std::uint32_t lanes) {
+                                  Slot slot, std::uint32_t lanes) {
         const Floats depth = hidden(planes, points_);
         block((depth > plane_error_).bits());
-        std::uint32_t open = waiting_ & lanes & ~(depth < -plane_error_).bits();
-        if (open == 0) return;
-        const Slot slot = slot_of();
-        open &= ~own(slot);  // it does not hide its own points
+        // It does not hide its own points. All signs before the one branch: each alone is a guess.
+        const std::uint32_t open = waiting_ & lanes & ~((depth < -plane_error_).bits() | own(slot));
         if (HWY_UNLIKELY(open != 0))
             leave_triangle(context, planes, slot, open, depth > Floats(0.0F));
     }

@@ -18,7 +18,8 @@
 #include "fast/simd/lanes.h"
 
 // A tile's points are looked up in a light's buffer step by step, each step for all of them: cells,
-// lists, entries, items. So what a step reads is on its way from memory during the one before.
+// lists, entries, items. So what a step reads is on its way from memory during the one before, and
+// loops are long: the end of a short one is a branch that the processor foresees badly.
 
 HWY_BEFORE_NAMESPACE();
 namespace nuvo::HWY_NAMESPACE {
@@ -37,19 +38,17 @@ class ShadowLookup {
         if (!buffer_.usable()) return 0;
         const ShadowBlock& block = blocks_[b];
         const LightPlaces places(buffer_.map, context_.table.light, block.points(), block.error());
-        const std::uint32_t there =
+        const std::uint32_t asked =
             counted_ == nullptr ? block.waiting()
                                 : covered(*counted_, places, block.error(), block.waiting());
-        const std::uint32_t good = there & places.good;
-        Stored stored;
-        for (int i = 0; i < 2; ++i) places.step[i].store(stored.step[i]);
-        places.depth.store(stored.depth);
+        const std::uint32_t good = asked & places.good;
+        alignas(64) std::int32_t cell[16];
         for (const LightGrid& grid : buffer_.grids) {
-            const Ints cells = places.cells(grid);
-            cells.store(stored.cell);
+            const auto [cells, windows] = places.cells(grid);
+            cells.store(cell);
             for (std::uint32_t todo = good; todo != 0;) {
                 const int lane = std::countr_zero(todo);
-                std::uint32_t lanes = todo & (cells == Ints(stored.cell[lane])).bits();
+                std::uint32_t lanes = todo & (cells == Ints(cell[lane])).bits();
                 todo ^= lanes;
                 if (grid.sparse && lanes != good && (lanes | todo) == good) {
                     // The first of several cells.
@@ -58,14 +57,15 @@ class ShadowLookup {
                     lanes &= rest;
                     if (lanes == 0) continue;
                 }
-                Visit& visit = add_visit(b, lanes, static_cast<std::uint32_t>(stored.cell[lane]));
-                if ((lanes & (lanes - 1)) == 0)
-                    put_window(visit, grid, stored, lane);
-                else
-                    put_window(visit, grid, places, lanes);
+                Visit& visit = add_visit(b, lanes, static_cast<std::uint32_t>(cell[lane]));
+                const RayMask there = RayMask::from_bits(lanes);
+                visit.window =
+                    highest_bytes(select(mask_for<std::int32_t>(there), windows, Ints(0)));
+                visit.depth = highest(
+                    select(there, places.depth, Floats(-std::numeric_limits<float>::infinity())));
             }
         }
-        const std::uint32_t rough = there & places.known & ~places.good;
+        const std::uint32_t rough = asked & places.known & ~places.good;
         return HWY_UNLIKELY(rough != 0) ? good | add_rough(b, places, rough) : good;
     }
 
@@ -92,19 +92,14 @@ class ShadowLookup {
         std::uint16_t lanes;
         std::uint32_t window;  // CellBox::window()
         float depth;
-        Slot own;             // on which all the points lie, or kNoSlot
         std::uint32_t begin;  // its entries
         std::uint32_t end;
     };
-    struct Candidate {
-        Slot place;
+    // The candidates of a visit end here.
+    struct Run {
+        int end;
         std::uint16_t block;
         std::uint16_t lanes;
-    };
-    struct Stored {
-        alignas(64) float step[2][16];
-        alignas(64) float depth[16];
-        alignas(64) std::int32_t cell[16];
     };
     static constexpr int kMaxVisits = 512;
     static constexpr int kMaxCandidates = 256;
@@ -119,7 +114,6 @@ class ShadowLookup {
         visit.cell = cell;
         visit.block = static_cast<std::uint16_t>(b);
         visit.lanes = static_cast<std::uint16_t>(lanes);
-        visit.own = blocks_[b].common(lanes);
         hwy::Prefetch(&buffer_.starts[cell]);
         return visit;
     }
@@ -179,34 +173,6 @@ class ShadowLookup {
             }
     }
 
-    // The window of steps in the cell where they are.
-    static std::uint32_t window_of(const LightGrid& grid, const std::uint32_t (&first)[2],
-                                   const std::uint32_t (&last)[2]) {
-        const CellSteps steps(grid, first, last);
-        return steps.in(steps.first_cell(0), steps.first_cell(1)).window();
-    }
-    static HWY_INLINE void put_window(Visit& visit, const LightGrid& grid, const Stored& stored,
-                                      int lane) {
-        const std::uint32_t at[2] = {static_cast<std::uint32_t>(stored.step[0][lane]),
-                                     static_cast<std::uint32_t>(stored.step[1][lane])};
-        visit.window = window_of(grid, at, at);
-        visit.depth = stored.depth[lane];
-    }
-    static HWY_INLINE void put_window(Visit& visit, const LightGrid& grid,
-                                      const LightPlaces& places, std::uint32_t lanes) {
-        const RayMask there = RayMask::from_bits(lanes);
-        std::uint32_t first[2];
-        std::uint32_t last[2];
-        for (int i = 0; i < 2; ++i) {
-            const Floats& step = places.step[i];
-            first[i] = static_cast<std::uint32_t>(lowest(select(there, step, Floats(kLightSteps))));
-            last[i] = static_cast<std::uint32_t>(highest(select(there, step, Floats(0.0F))));
-        }
-        visit.window = window_of(grid, first, last);
-        visit.depth =
-            highest(select(there, places.depth, Floats(-std::numeric_limits<float>::infinity())));
-    }
-
     HWY_INLINE void find_list(Visit& visit) const {
         visit.begin = buffer_.starts[visit.cell];
         visit.end = buffer_.starts[visit.cell + 1];
@@ -220,27 +186,22 @@ class ShadowLookup {
     }
     // Looks at the next entries, up to `most`; false: nothing is left to be looked at.
     HWY_INLINE bool scan(Visit& visit, std::uint32_t most) {
-        const ShadowTable& table = context_.table;
         const ShadowBlock& block = blocks_[visit.block];
         if ((block.waiting() & visit.lanes) == 0) return false;
         const std::uint32_t end = visit.begin + std::min(most, visit.end - visit.begin);
         while (visit.begin < end) {
             const LightGroup group = buffer_.group(visit.begin, visit.end);
             visit.begin += group.count;
-            for (std::uint32_t found = meets(group, visit); found != 0; found &= found - 1) {
-                const Slot place = group.places()[std::countr_zero(found)];
-                if (place < table.triangles) {
-                    if (table.slot(place) == visit.own) continue;  // it does not hide itself
-                    hwy::Prefetch(&table.planes[place]);
-                } else {
-                    hwy::Prefetch(&context_.job.tables.quadric(table.slot(place)));
-                }
-                candidates_[candidate_count_++] = {place, visit.block, visit.lanes};
-            }
+            candidate_count_ += static_cast<int>(
+                Ints::load(group.places())
+                    .compress_store(candidates_ + candidate_count_, meets(group, visit)));
+            prefetch_next();
             if (candidate_count_ <= kMaxCandidates - static_cast<int>(LightGroup::kMost)) continue;
+            end_run(visit);
             test_candidates();
             if ((block.waiting() & visit.lanes) == 0) return false;
         }
+        end_run(visit);
         if (visit.begin >= visit.end) return false;
         if (std::bit_cast<float>(buffer_.group(visit.begin, visit.end).nears()[0]) > visit.depth)
             return false;
@@ -248,22 +209,47 @@ class ShadowLookup {
         return true;
     }
     // Which of a group may stand before the visiting points.
-    static HWY_INLINE std::uint32_t meets(const LightGroup& group, const Visit& visit) {
+    static HWY_INLINE LaneMask<std::int32_t, 16> meets(const LightGroup& group,
+                                                       const Visit& visit) {
         constexpr auto kAll = static_cast<std::int32_t>(CellBox::kMeets);
-        const Ints boxes = Ints::load(reinterpret_cast<const std::int32_t*>(group.boxes()));
+        const Ints boxes = Ints::load(group.boxes());
         const Ints left = Ints(static_cast<std::int32_t>(visit.window)) - boxes;
         const Floats nears = Floats::load(reinterpret_cast<const float*>(group.nears()));
-        return ((left & Ints(kAll)) == Ints(kAll)).bits() & (nears <= Floats(visit.depth)).bits() &
-               ((1U << group.count) - 1);
+        return ((left & Ints(kAll)) == Ints(kAll)) &
+               mask_for<std::int32_t>((nears <= Floats(visit.depth)) &
+                                      RayMask::from_bits((1U << group.count) - 1));
+    }
+    HWY_INLINE void end_run(const Visit& visit) {
+        runs_[run_count_++] = {candidate_count_, visit.block, visit.lanes};
+    }
+    HWY_INLINE void prefetch_item(Slot place) const {
+        const ShadowTable& table = context_.table;
+        if (place < table.triangles)
+            hwy::Prefetch(&table.planes[place]);
+        else
+            hwy::Prefetch(&context_.job.tables.quadric(table.slot(place)));
+    }
+    // As many for each group, some of them again: as many as it gave, the processor would not know.
+    HWY_INLINE void prefetch_next() {
+        constexpr int kAtOnce = 2;
+        if (candidate_count_ == 0) return;
+        for (int i = 0; i < kAtOnce; ++i)
+            prefetch_item(candidates_[std::min(prefetched_ + i, candidate_count_ - 1)]);
+        prefetched_ = std::min(prefetched_ + kAtOnce, candidate_count_);
     }
     HWY_INLINE void test_candidates() {
-        for (int i = 0; i < candidate_count_; ++i) {
-            const Candidate& candidate = candidates_[i];
-            ShadowBlock& block = blocks_[candidate.block];
-            if ((block.waiting() & candidate.lanes) != 0)
-                block.test(context_, candidate.place, candidate.lanes);
+        while (prefetched_ < candidate_count_) prefetch_item(candidates_[prefetched_++]);
+        prefetched_ = 0;
+        int i = 0;
+        for (int r = 0; r < run_count_; ++r) {
+            const Run& run = runs_[r];
+            ShadowBlock& block = blocks_[run.block];
+            for (; i < run.end && (block.waiting() & run.lanes) != 0; ++i)
+                block.test(context_, candidates_[i], run.lanes);
+            i = run.end;
         }
         candidate_count_ = 0;
+        run_count_ = 0;
     }
 
     const ShadowContext& context_;
@@ -271,9 +257,12 @@ class ShadowLookup {
     const WantedDepths* counted_;  // null: the lists are for all points that are asked for
     ShadowBlock* blocks_;
     int visit_count_ = 0;
+    int run_count_ = 0;
     int candidate_count_ = 0;
+    int prefetched_ = 0;  // of the candidates
     Visit visits_[kMaxVisits];
-    Candidate candidates_[kMaxCandidates];
+    Run runs_[kMaxVisits];
+    Slot candidates_[kMaxCandidates];  // places
 };
 
 }  // namespace nuvo::HWY_NAMESPACE
