@@ -1,5 +1,5 @@
-# [numerics: voxels seen by a macro tile] Frustum::Affine in src/render/fast/primary/frustum.h, in
-# units of T, and the bound of 1 / t there. The sum of an affine function's terms is within T.
+# [numerics: voxels seen by a macro tile] Affine in src/render/fast/primary/affine_lanes.h, in
+# units of T, and the bound of 1 / t in frustum.h. The sum of an affine function's terms is within T.
 n = 16;  # constant, step -1: kRoundings. The rest of the last one is for double arithmetic
 m = 4;  # constant, step -1: 1 + m u of 1 / z
 u = 1b-24;

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <utility>
 
 #include "fast/scene/fast_scene.h"
 #include "fast/scene/triangle_chunk.h"
@@ -16,28 +18,23 @@ class CornerFetch {
 
     explicit CornerFetch(const FastScene& scene) : scene_(scene) {}
 
-    /// Adds a triangle; true if the newest batch is full: advance() before the next one.
-    bool add(Slot slot) {
-        Batch& batch = batches_[newest_];
-        __builtin_prefetch(&scene_.source(slot));
-        batch.slot[batch.count++] = slot;
-        return batch.count == kBatch;
-    }
-
-    /// Moves every batch on by one step. The oldest is then in slots() and corners().
-    void advance() {
-        follow_source(batches_[newest_]);
-        follow_indices(batches_[(newest_ + 2) % 3]);
-        newest_ = (newest_ + 1) % 3;
-        Batch& oldest = batches_[newest_];
-        gather(oldest);
-        count_ = oldest.count;
-        slots_ = oldest.slot;
-        oldest.count = 0;
-        oldest.front_only = 0;
+    /// Adds at most kBatch triangles and moves all that are on their way on by one step. The oldest
+    /// are then in slot() and corners().
+    void advance(const Slot* slots, std::size_t count) {
+        Batch& newest = batches_[newest_];
+        newest.count = count;
+        std::copy_n(slots, count, newest.slot.begin());
+        for (std::size_t i = 0; i < count; ++i) __builtin_prefetch(&scene_.source(slots[i]));
+        follow_source(batches_[(newest_ + 3) % kSteps]);
+        follow_indices(batches_[(newest_ + 2) % kSteps]);
+        newest_ = (newest_ + 1) % kSteps;
+        gather(batches_[newest_]);
     }
     /// Whether nothing is on its way.
-    bool empty() const { return batches_[0].count + batches_[1].count + batches_[2].count == 0; }
+    bool empty() const {
+        return std::all_of(batches_.begin(), batches_.end(),
+                           [](const Batch& batch) { return batch.count == 0; });
+    }
 
     std::size_t count() const { return count_; }
     Slot slot(std::size_t i) const { return slots_[i]; }
@@ -47,18 +44,16 @@ class CornerFetch {
   private:
     struct Batch {
         std::size_t count = 0;
-        std::array<Slot, kBatch> slot;
+        std::array<Slot, kBatch> slot{};
         std::array<const IndexTriple*, kBatch> indices;
         std::array<const Point3*, kBatch> positions;
-        std::uint32_t front_only = 0;  // a bit each
     };
 
     void follow_source(Batch& batch) const {
         for (std::size_t i = 0; i < batch.count; ++i) {
             const PrimitiveSource& source = scene_.source(batch.slot[i]);
-            const Object& object = scene_.scene().objects[source.object];
-            const auto& mesh = *std::get_if<TriangleMesh>(&object.shape);
-            if (scene_.front_only(object)) batch.front_only |= 1U << i;
+            const auto& mesh =
+                *std::get_if<TriangleMesh>(&scene_.scene().objects[source.object].shape);
             batch.indices[i] = &mesh.triangles[source.triangle];
             batch.positions[i] = mesh.positions.data();
             __builtin_prefetch(batch.indices[i]);
@@ -69,7 +64,7 @@ class CornerFetch {
             for (const std::uint32_t index : *batch.indices[i])
                 __builtin_prefetch(batch.positions[i] + index);
     }
-    void gather(const Batch& batch) {
+    void gather(Batch& batch) {
         for (std::size_t i = 0; i < batch.count; ++i) {
             TriangleBatch& to = corners_[i / TriangleBatch::kSize];
             for (std::size_t k = 0; k < 3; ++k)
@@ -77,13 +72,17 @@ class CornerFetch {
         }
         const std::size_t rest = batch.count % TriangleBatch::kSize;
         if (rest != 0) corners_[batch.count / TriangleBatch::kSize].fill_up(rest);
+        const std::uint32_t front_only = scene_.front_only(batch.slot.data());
         for (std::size_t half = 0; half < corners_.size(); ++half)
-            corners_[half].front_only = batch.front_only >> half * TriangleBatch::kSize &
-                                        ((1U << TriangleBatch::kSize) - 1);
+            corners_[half].front_only =
+                front_only >> half * TriangleBatch::kSize & ((1U << TriangleBatch::kSize) - 1);
+        slots_ = batch.slot;
+        count_ = std::exchange(batch.count, std::size_t{0});
     }
 
     const FastScene& scene_;
-    std::array<Batch, 3> batches_{};
+    static constexpr std::size_t kSteps = 4;
+    std::array<Batch, kSteps> batches_{};
     std::size_t newest_ = 0;
     std::size_t count_ = 0;
     std::array<Slot, kBatch> slots_{};

@@ -14,10 +14,10 @@
 #include "fast/light/wanted_depths.h"
 #include "fast/primary/primary.h"
 #include "fast/scene/triangle_chunk.h"
-#include "fast/scene/triangle_set.h"
 #include "fast/shading/shading.h"
 #include "fast/shadow/shadow.h"
 #include "fast/tile/tile_order.h"
+#include "fast/tile/triangle_set.h"
 #include "nuvo/math/parallel.h"
 
 // The picture tile by tile: primary rays, surfaces, and for each light its samples, its shadows and

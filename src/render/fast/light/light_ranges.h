@@ -12,6 +12,7 @@
 #include "fast/light/light_items.h"
 #include "fast/light/light_map.h"
 #include "fast/light/light_point.h"
+#include "fast/scene/local_corners.h"
 #include "fast/simd/lanes.h"
 #include "nuvo/math/error_bounds.h"
 
@@ -324,10 +325,10 @@ class ItemRanges {
 /// Asks for what corners_of() reads of an item.
 HWY_INLINE void prefetch_corners(const LightItems& items, Slot slot) {
     const Slot triangle_end = items.scene.triangle_end();
-    if (slot >= triangle_end) return __builtin_prefetch(&items.quadrics[slot - triangle_end]);
-    const LocalTriangle& triangle = items.scene.triangles()[slot];
-    __builtin_prefetch(&triangle.corner[0]);
-    __builtin_prefetch(&triangle.corner[2].z);
+    if (slot < triangle_end)
+        prefetch_corners(items.scene.triangles()[slot]);
+    else
+        __builtin_prefetch(&items.quadrics[slot - triangle_end]);
 }
 
 /// The corners of `count` items of one kind, at most 16, whose slots are slot_at(0) and on; the
@@ -338,28 +339,28 @@ template <typename SlotAt>
 HWY_INLINE ItemCorners corners_of(const LightItems& items, Slot count, const SlotAt& slot_at) {
     const Bounds3T<float>& box = items.scene.octree().bounds;
     const Slot triangle_end = items.scene.triangle_end();
-    const bool triangles = slot_at(0) < triangle_end;
     ItemCorners out;
-    alignas(64) float at[3][3][16];
+    out.count = slot_at(0) < triangle_end ? 3 : 2;
+    if (out.count == 3) {
+        load_corners(
+            [&](std::size_t i) -> const LocalTriangle& {
+                return items.scene.triangles()[slot_at(std::min(static_cast<Slot>(i), count - 1))];
+            },
+            out.at);
+        return out;
+    }
+    alignas(64) float at[2][3][16];
     for (Slot i = 0; i < 16; ++i) {
-        const Slot slot = slot_at(std::min(i, count - 1));
-        if (triangles) {
-            const LocalTriangle& t = items.scene.triangles()[slot];
-            for (int corner = 0; corner < 3; ++corner)
-                for (int axis = 0; axis < 3; ++axis) at[corner][axis][i] = t.corner[corner][axis];
-        } else {
-            const Quadric& shape = items.quadrics[slot - triangle_end];
-            for (int axis = 0; axis < 3; ++axis) {
-                // Of a radius that is NaN the box is left.
-                const float low = shape.center[axis] - shape.radius;
-                const float high = shape.center[axis] + shape.radius;
-                at[0][axis][i] = low > box.min[axis] ? low : box.min[axis];
-                at[1][axis][i] = high < box.max[axis] ? high : box.max[axis];
-            }
+        const Quadric& shape = items.quadrics[slot_at(std::min(i, count - 1)) - triangle_end];
+        for (int axis = 0; axis < 3; ++axis) {
+            // Of a radius that is NaN the box is left.
+            const float low = shape.center[axis] - shape.radius;
+            const float high = shape.center[axis] + shape.radius;
+            at[0][axis][i] = low > box.min[axis] ? low : box.min[axis];
+            at[1][axis][i] = high < box.max[axis] ? high : box.max[axis];
         }
     }
-    out.count = triangles ? 3 : 2;
-    for (int corner = 0; corner < out.count; ++corner)
+    for (int corner = 0; corner < 2; ++corner)
         for (int axis = 0; axis < 3; ++axis) out.at[corner][axis] = Floats::load(at[corner][axis]);
     return out;
 }

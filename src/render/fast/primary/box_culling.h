@@ -10,6 +10,7 @@
 
 #include "fast/camera/camera_tables.h"
 #include "fast/primary/macro_tile.h"
+#include "fast/simd/four_columns.h"
 #include "fast/simd/lanes.h"
 #include "fast/tile/tile.h"
 
@@ -29,7 +30,7 @@ class BoxCulling {
           y_(std::min(tile.y, kMostBoxPixels - kMacroSide)) {}
 
     /// Where the i-th of kBatch boxes has to stand.
-    static constexpr std::size_t place(std::size_t i) { return i % 4 * 4 + i / 4; }
+    static constexpr std::size_t place(std::size_t i) { return FourColumns::place(i); }
 
     /// Writes the places of those of `count` boxes that may be seen in the macro tile before what
     /// is known, and the tiles where; returns their number. kBatch boxes have to be readable, as
@@ -37,10 +38,11 @@ class BoxCulling {
     HWY_INLINE std::size_t choose(const PixelBox* boxes, std::size_t count, const float* tile_near,
                                   float macro_near, std::int32_t* chosen,
                                   std::int32_t* tiles) const {
-        const Columns box(boxes);
-        const Range columns(box.number[0], x_);
-        const Range rows(box.number[1], y_);
-        const Floats nearest = floats_of(box.number[2]);
+        static_assert(sizeof(PixelBox) == 4 * sizeof(std::int32_t));
+        const FourColumns box(reinterpret_cast<const std::int32_t*>(boxes));
+        const Range columns(box.column[0], x_);
+        const Range rows(box.column[1], y_);
+        const Floats nearest = floats_of(box.column[2]);
         alignas(64) static constexpr std::int32_t kPlaces[16] = {0, 1, 2,  3,  4,  5,  6,  7,
                                                                  8, 9, 10, 11, 12, 13, 14, 15};
         const Ints places = Ints::load(kPlaces);
@@ -85,45 +87,6 @@ class BoxCulling {
         const int last = std::min(static_cast<int>(packed >> 16) - tile, kTileSide) - 1;
         return static_cast<std::size_t>(4 * (first / kBlockSide) + last / kBlockSide);
     }
-
-    // The numbers of 16 boxes by column: squares of 4 x 4 are transposed within each quarter of a
-    // register, hence place().
-    struct Columns {
-        explicit HWY_INLINE Columns(const PixelBox* boxes) {
-            static_assert(sizeof(PixelBox) == 4 * sizeof(std::int32_t));
-            const auto* const numbers = reinterpret_cast<const std::int32_t*>(boxes);
-#if HWY_TARGET == HWY_SCALAR
-            for (std::size_t i = 0; i < kBatch; ++i)
-                for (std::size_t k = 0; k < 4; ++k)
-                    number[k].part[i] = hn::Set(Ints::Tag(), numbers[4 * place(i) + k]);
-#else
-            const Ints row[4] = {Ints::load(numbers), Ints::load(numbers + kBatch),
-                                 Ints::load(numbers + 2 * kBatch),
-                                 Ints::load(numbers + 3 * kBatch)};
-            const Ints::Tag tag;
-            const hn::Repartition<std::int64_t, Ints::Tag> pairs;
-            const auto lower = [&](const auto& a, const auto& b) HWY_ATTR {
-                return hn::BitCast(
-                    tag, hn::InterleaveLower(pairs, hn::BitCast(pairs, a), hn::BitCast(pairs, b)));
-            };
-            const auto upper = [&](const auto& a, const auto& b) HWY_ATTR {
-                return hn::BitCast(
-                    tag, hn::InterleaveUpper(pairs, hn::BitCast(pairs, a), hn::BitCast(pairs, b)));
-            };
-            for (std::size_t i = 0; i < Ints::Shape::kParts; ++i) {
-                const auto low_01 = hn::InterleaveLower(tag, row[0].part[i], row[1].part[i]);
-                const auto low_23 = hn::InterleaveLower(tag, row[2].part[i], row[3].part[i]);
-                const auto high_01 = hn::InterleaveUpper(tag, row[0].part[i], row[1].part[i]);
-                const auto high_23 = hn::InterleaveUpper(tag, row[2].part[i], row[3].part[i]);
-                number[0].part[i] = lower(low_01, low_23);
-                number[1].part[i] = upper(low_01, low_23);
-                number[2].part[i] = lower(high_01, high_23);
-                number[3].part[i] = upper(high_01, high_23);
-            }
-#endif
-        }
-        Ints number[4];
-    };
 
     // Of tiles, 0..3.
     struct Range {

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <limits>
 
+#include "fast/primary/affine_lanes.h"
 #include "fast/primary/macro_tile.h"
 #include "fast/simd/lanes.h"
 #include "fast/tile/beam.h"
@@ -83,6 +84,11 @@ class Frustum {
             if (toward[axis] < 0) flip_ |= 1U << axis;
     }
 
+    /// Whether floats hold the view's numbers.
+    bool usable() const { return usable_; }
+    /// Four functions that are positive in the pyramid before the eye and up to about a pixel
+    /// around.
+    const Affine (&sides() const)[4] { return sides_; }
     /// Octant o ^ flip() for o = 0..7 is an order from near to far.
     unsigned flip() const { return flip_; }
 
@@ -95,7 +101,7 @@ class Frustum {
             OctantFloats(std::numeric_limits<float>::infinity()).store(seen.nearest);
             return 0xff;
         }
-        Boxes boxes;
+        MiddlesAndHalves boxes;
         for (int axis = 0; axis < 3; ++axis) {
             const auto upper = upper_octants(axis);
             const float a = low[axis];
@@ -155,67 +161,9 @@ class Frustum {
     static constexpr float kMargin = 0x1p-6F;
     static constexpr float kLeastDepth = 0x1p-90F;
 
-    struct Boxes {
-        OctantFloats middle[3];
-        OctantFloats half[3];
-        OctantFloats distance[3];  // |middle|
-    };
-
     static Vector3 abs_of(const Vector3& v) {
         return {std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)};
     }
-
-    // f . (p - eye). `size` bounds the terms whose sums are f's components.
-    class Affine {
-      public:
-        Affine() = default;
-        Affine(const Vector3& f, const Vector3& size, const Point3& eye, double reach) {
-            double constant = 0;
-            double of_eye = 0;
-            double most = 0;
-            for (int axis = 0; axis < 3; ++axis) {
-                const double term = std::fabs(size[axis]);
-                constant -= f[axis] * eye[axis];
-                of_eye += term * std::fabs(eye[axis]);
-                most += term * (reach + std::fabs(eye[axis]));
-                f_[axis] = static_cast<float>(f[axis]);
-                error_[axis] = rounded_up(roundings(kRoundings) * term);
-                spread_[axis] = std::fabs(f_[axis]) + error_[axis];
-            }
-            constant_ = static_cast<float>(constant);
-            constant_error_ = rounded_up(roundings(kRoundings) * of_eye + kFloatUnderflow);
-            usable_ = most < kLargest;
-        }
-        /// Whether no sum is beyond floats.
-        bool usable() const { return usable_; }
-        HWY_INLINE OctantFloats at(const Boxes& boxes) const {
-            return mul_add(
-                boxes.middle[0], OctantFloats(f_[0]),
-                mul_add(boxes.middle[1], OctantFloats(f_[1]),
-                        mul_add(boxes.middle[2], OctantFloats(f_[2]), OctantFloats(constant_))));
-        }
-        /// With the errors of both, in proportion to the boxes' own coordinates.
-        HWY_INLINE OctantFloats spread(const Boxes& boxes) const {
-            OctantFloats sum(constant_error_);
-            for (int axis = 0; axis < 3; ++axis)
-                sum = mul_add(boxes.half[axis], OctantFloats(spread_[axis]),
-                              mul_add(boxes.distance[axis], OctantFloats(error_[axis]), sum));
-            return sum;
-        }
-
-      private:
-        // Fifteen, docs/numerics.md; one for what double arithmetic rounds, one for the bound's
-        // own.
-        static constexpr double kRoundings = 17;
-        static constexpr double kLargest = 0x1p90;
-
-        float f_[3];
-        float error_[3];
-        float spread_[3];
-        float constant_;
-        float constant_error_;
-        bool usable_;
-    };
 
     Affine depth_;
     Affine across_[2];

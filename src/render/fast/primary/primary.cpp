@@ -16,16 +16,18 @@
 #include "fast/primary/frustum.h"
 #include "fast/primary/primary_lanes.h"
 #include "fast/primary/sphere_lanes.h"
+#include "fast/primary/triangle_culling.h"
 #include "fast/simd/lanes.h"
 #include "nuvo/math/error_bounds.h"
 
 // A macro tile's nearest hits form a pyramid: of each lane, of each block, of each tile and of all.
 // Voxels, items and blocks that cannot be nearer are left out by it. Triangles are made ready 16 at
-// a time when their leaves are met: first their pixel boxes, then, of batches that still matter,
-// their edge functions. They are tested as a rasterizer tests them: coarse, against 16 blocks of
-// pixels at once, unless they show in a few blocks only; then fine, 16 pixels at once (Abrash 2009,
-// "Rasterization on Larrabee"). Spheres wait by tile, for their functions are those of a tile.
-// Whatever a float within its bound leaves open, the exact fallback decides at once.
+// a time when their leaves are met: floats tell most of those that cannot show; of the others come
+// first pixel boxes, then, of batches that still matter, edge functions. They are tested as a
+// rasterizer tests them: coarse, against 16 blocks of pixels at once, unless they show in a few
+// blocks only; then fine, 16 pixels at once (Abrash 2009, "Rasterization on Larrabee"). Spheres
+// wait by tile, for their functions are those of a tile. Whatever a float within its bound leaves
+// open, the exact fallback decides at once.
 
 HWY_BEFORE_NAMESPACE();
 namespace nuvo::HWY_NAMESPACE {
@@ -49,21 +51,27 @@ class PrimaryTracer {
     void run() {
         const CompactOctree& octree = job_.scene.octree();
         const Slot triangle_end = job_.scene.triangle_end();
+        const Frustum frustum(job_.camera, tile_, job_.scene.reach());
+        const TriangleCulling triangle_culling(job_.scene, job_.camera, frustum);
+        CulledTriangles triangles(job_.scene, triangle_culling);
+        const auto fetch = [&](const Slot* slots, std::size_t count)
+                               HWY_ATTR { advance_triangles(slots, count); };
         job_.mailbox.start();
         walk_frustum(
-            octree, Frustum(job_.camera, tile_, job_.scene.reach()),
+            octree, frustum,
             [&](BlockRange range, float nearest) HWY_ATTR { return is_open(range, nearest); },
             [&](const std::uint32_t* items, std::uint32_t count) HWY_ATTR {
                 for (std::uint32_t i = 0; i < count; ++i) {
                     if (job_.mailbox.seen(items[i])) continue;
                     if (items[i] < triangle_end) {
-                        if (corners_.add(items[i])) advance_triangles();
+                        triangles.add(items[i], fetch);
                     } else {
                         add_quadric(items[i] - triangle_end);
                     }
                 }
             });
-        while (!corners_.empty()) advance_triangles();
+        triangles.finish(fetch);
+        while (!corners_.empty()) advance_triangles(nullptr, 0);
         choose_quadrics();
         for (int t = 0; t < MacroTile::kTiles; ++t) test_spheres(t);
         finish();
@@ -72,7 +80,8 @@ class PrimaryTracer {
   private:
     static constexpr float kInfinity = std::numeric_limits<float>::infinity();
     static constexpr std::size_t kBatch = BoxCulling::kBatch;
-    static_assert(kBatch == CornerFetch::kBatch && kBatch == SphereConics::kMost);
+    static_assert(kBatch == TriangleCulling::kBatch && kBatch == CornerFetch::kBatch &&
+                  kBatch == SphereConics::kMost);
     // Up to so many blocks are tested one by one: from 2 to 7 the time was the same.
     static constexpr int kFewBlocks = 4;
     const Ints none_{kNoSlot};
@@ -136,8 +145,8 @@ class PrimaryTracer {
         return among(tile_near_, left, right, top, bottom);
     }
 
-    HWY_NOINLINE void advance_triangles() {
-        corners_.advance();
+    HWY_NOINLINE void advance_triangles(const Slot* slots, std::size_t added) {
+        corners_.advance(slots, added);
         const std::size_t count = corners_.count();
         if (count == 0) return;
         constexpr std::size_t kHalf = TriangleBatch::kSize;

@@ -13,8 +13,8 @@
 #include "nuvo/octree/compact_build.h"
 
 // Everything that is rounded here is rounded outwards: a box holds the true primitive as the local
-// frame's exact mapping places it. The floats made of corners and centres serve the octree's
-// construction only and are gone with it.
+// frame's exact mapping places it. Of the floats made for the octree's construction only triangles'
+// corners, and which backs are invisible, outlive it.
 
 namespace nuvo {
 namespace {
@@ -39,6 +39,7 @@ struct LocalItems {
     BigVector<Bounds3T<float>> boxes;
     BigVector<LocalTriangle> triangles;
     BigVector<LocalSphere> spheres;
+    BigVector<std::uint8_t> front_only;  // of triangles, 8 in a byte
 };
 
 class LocalItemsMaker {
@@ -47,11 +48,13 @@ class LocalItemsMaker {
         items_.boxes.resize(fast.slot_end());
         items_.triangles.resize(fast.triangle_end());
         items_.spheres.resize(fast.sphere_end() - fast.triangle_end());
+        items_.front_only.resize((items_.triangles.size() + 7) / 8);
     }
 
     LocalItems make(int threads) && {
         const InstructionSet isa = resolved(InstructionSet::kBest);
-        const LocalTrianglesJob job{frame_, items_.triangles.data(), items_.boxes.data()};
+        const LocalTrianglesJob job{frame_, items_.triangles.data(), items_.boxes.data(),
+                                    items_.front_only.data()};
         for_each_chunk(fast_, threads,
                        [&](const TriangleChunk& chunk) { make_local_triangles(job, chunk, isa); });
         for_each_quadric_part(fast_, threads, [&](QuadricSpan quadrics) {
@@ -129,6 +132,9 @@ FastScene::FastScene(const Scene& scene, const Primitives& primitives,
     LocalItems items = LocalItemsMaker(*this).make(options.threads);
     octree_ = octree_of(items, options);
     triangles_ = std::move(items.triangles);
+    if (std::any_of(items.front_only.begin(), items.front_only.end(),
+                    [](std::uint8_t eight) { return eight != 0; }))
+        front_only_ = std::move(items.front_only);
     if (!octree_.bounds.empty())
         reach_ = std::max(max_norm(octree_.bounds.min), max_norm(octree_.bounds.max));
 }

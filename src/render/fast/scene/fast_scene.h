@@ -52,6 +52,15 @@ class FastScene {
     bool front_only(const Object& object) const {
         return object.solid && back_faces_ == BackFaces::kSolid;
     }
+    /// Which of 16 triangles are of such objects: bit i is that of slots[i].
+    std::uint32_t front_only(const Slot* slots) const {
+        constexpr int kSlots = 16;
+        std::uint32_t bits = 0;
+        if (front_only_.empty()) return bits;
+        for (int i = 0; i < kSlots; ++i)
+            bits |= static_cast<std::uint32_t>(front_only_[slots[i] / 8] >> slots[i] % 8 & 1) << i;
+        return bits;
+    }
     const LocalFrame& frame() const { return frame_; }
     /// Holds every triangle; world space.
     const Bounds3& triangle_box() const { return primitives_.kind(PrimitiveKind::kTriangle).box; }
@@ -106,7 +115,7 @@ class FastScene {
     /// Without the octree.
     std::size_t memory_bytes() const {
         return vector_bytes(ids_) + vector_bytes(quadrics_) + vector_bytes(triangles_) +
-               vector_bytes(balls_);
+               vector_bytes(balls_) + vector_bytes(front_only_);
     }
 
   private:
@@ -125,6 +134,7 @@ class FastScene {
     BigVector<QuadricSlot> quadrics_;
     BigVector<BallMap> balls_;  // of slots from sphere_end_ on
     BigVector<LocalTriangle> triangles_;
+    BigVector<std::uint8_t> front_only_;  // of triangles, 8 in a byte; empty: none
     CompactOctree octree_;
     double reach_ = 1;
 };

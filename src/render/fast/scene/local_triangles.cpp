@@ -43,6 +43,8 @@ class LocalMaker {
         }
         static_assert(sizeof(LocalTriangle) == sizeof(float[9]));
         static_assert(sizeof(Bounds3T<float>) == sizeof(float[6]));
+        job_.front_only[first / kBatch] =
+            static_cast<std::uint8_t>(batch.front_only & ((1U << count) - 1));
         for (std::size_t i = 0; i < count; ++i) {
             float* const triangle = &job_.triangles[first + i].corner[0].x;
             for (std::size_t k = 0; k < 9; ++k) triangle[k] = corners_[k][i];

@@ -11,6 +11,7 @@ struct LocalTrianglesJob {
     const LocalFrame& frame;
     LocalTriangle* triangles;  ///< of slot 0
     Bounds3T<float>* boxes;    ///< of slot 0
+    std::uint8_t* front_only;  ///< of slots 0 to 7, a bit each, and so on
 };
 
 /// Makes those of a chunk.

@@ -7,9 +7,9 @@
 #include "fast/camera/camera_tables.h"
 #include "fast/scene/fast_scene.h"
 #include "fast/scene/triangle_chunk.h"
-#include "fast/scene/triangle_set.h"
 #include "fast/shading/shading_rays.h"
 #include "fast/tile/tile.h"
+#include "fast/tile/triangle_set.h"
 #include "nuvo/math/big_vector.h"
 #include "nuvo/math/error_bounds.h"
 
