@@ -180,8 +180,6 @@ TEST(CullingBounds, NothingIsCulledThatMayShow) {
         // Some that are so nearly seen edge-on that floats cannot tell, and some that they can.
         EXPECT_GT(found[kEdgeOn].kept_backs, 1000);
         EXPECT_GT(found[kEdgeOn].backs, 400);
-        for (const Found& f : found)
-            printf("%d %d %d %d\n", f.backs, f.beside, f.kept_backs, f.kept);
     }
 }
 

@@ -6,6 +6,9 @@
 #define NUVO_RENDER_FAST_LIGHT_CELLS_H_
 #endif
 
+#include <algorithm>
+#include <bit>
+
 #include "fast/light/light_buffer.h"
 #include "fast/simd/lanes.h"
 
@@ -28,6 +31,33 @@ HWY_INLINE Floats step_of(const LightMap& map, int i, const Floats& u) {
 }
 /// The column or row of a step, of `count`.
 HWY_INLINE Ints cell_of(const Ints& step, int count) { return shift_right<16>(step * Ints(count)); }
+
+/// The highest of each of the four bytes: of several windows, the least around all.
+HWY_INLINE std::uint32_t highest_bytes(const Ints& v) {
+#if HWY_TARGET == HWY_SCALAR
+    std::uint32_t all = 0;
+    for (const auto& part : v.part) {
+        const auto lane = static_cast<std::uint32_t>(hn::GetLane(part));
+        for (const std::uint32_t byte : {0xffU, 0xff00U, 0xff0000U, 0xff000000U})
+            all = std::max(all & byte, lane & byte) | (all & ~byte);
+    }
+    return all;
+#else
+    using Shape = Ints::Shape;
+    const Ints::Tag tag;
+    const hn::Repartition<std::uint8_t, Ints::Tag> bytes;
+    auto all = v.part[0];
+    const auto add = [&](const auto& other) HWY_ATTR {
+        all = hn::BitCast(tag, hn::Max(hn::BitCast(bytes, all), hn::BitCast(bytes, other)));
+    };
+    for (std::size_t i = 1; i < Shape::kParts; ++i) add(v.part[i]);
+    if constexpr (Shape::kPart > 8) add(hn::Reverse(tag, all));
+    if constexpr (Shape::kPart > 4) add(hn::Reverse8(tag, all));
+    add(hn::Reverse4(tag, all));
+    add(hn::Reverse2(tag, all));
+    return static_cast<std::uint32_t>(hn::GetLane(all));
+#endif
+}
 
 /// Where 16 points are looked up.
 struct LightPlaces {
@@ -63,7 +93,7 @@ struct LightPlaces {
     /// Of a grid.
     struct Cells {
         Ints cell;
-        Ints window;  ///< CellBox::window() of each; of several it is the highest of each byte
+        Ints window;  ///< CellBox::window() of each; of several: highest_bytes()
     };
     HWY_INLINE Cells cells(const LightGrid& grid) const {
         constexpr auto kLast = static_cast<std::int32_t>(kCellSteps) - 1;
@@ -87,10 +117,8 @@ struct LightPlaces {
     std::uint32_t good;   ///< lanes for which one cell of a grid is enough
 
   private:
-    static constexpr int kCellStepsLog2 = 7;
-    static constexpr int kStepsLog2 = 9;
-    static_assert(kCellSteps == 1U << kCellStepsLog2);
-    static_assert(kLightSteps == kCellSteps << kStepsLog2);
+    static constexpr int kCellStepsLog2 = std::countr_zero(kCellSteps);
+    static constexpr int kStepsLog2 = std::countr_zero(kLightSteps / kCellSteps);
     // In units of LightMap::point_size; worse known points may be met all over a grid, or on
     // several faces.
     static constexpr float kMostError = 0x1p-10F;

@@ -59,13 +59,11 @@ class Affine {
                        mul_add(size[1], Numbers(error_[1]),
                                mul_add(size[2], Numbers(error_[2]), Numbers(constant_error_))));
     }
-    HWY_INLINE OctantFloats at(const MiddlesAndHalves& boxes) const { return at(boxes.middle); }
     /// How far it may be off at the middles and differ from them in the boxes.
     HWY_INLINE OctantFloats spread(const MiddlesAndHalves& boxes) const {
-        OctantFloats sum(constant_error_);
+        OctantFloats sum = error(boxes.distance);
         for (int axis = 0; axis < 3; ++axis)
-            sum = mul_add(boxes.half[axis], OctantFloats(spread_[axis]),
-                          mul_add(boxes.distance[axis], OctantFloats(error_[axis]), sum));
+            sum = mul_add(boxes.half[axis], OctantFloats(spread_[axis]), sum);
         return sum;
     }
 

@@ -115,7 +115,7 @@ class Frustum {
         }
         const OctantFloats zero(0.0F);
         const OctantFloats one(1.0F);
-        const OctantFloats depth = depth_.at(boxes);
+        const OctantFloats depth = depth_.at(boxes.middle);
         const OctantFloats spread = depth_.spread(boxes);
         const OctantFloats near = depth - spread;
         const OctantFloats far = depth + spread;
@@ -129,7 +129,7 @@ class Frustum {
         const OctantFloats most(kMacroSide - 1);
         const OctantFloats shift(0.5F * (kMacroSide - 1));
         for (int k = 0; k < 2; ++k) {
-            const OctantFloats middle = across_[k].at(boxes);
+            const OctantFloats middle = across_[k].at(boxes.middle);
             const OctantFloats reach = across_[k].spread(boxes);
             const OctantFloats low_end = middle - reach;
             const OctantFloats high_end = middle + reach;
@@ -140,7 +140,7 @@ class Frustum {
         std::uint32_t octants = shown.bits();
         if ((octants & anywhere.bits()) != 0)
             for (const Affine& side : sides_)
-                octants &= ~(anywhere & (side.at(boxes) + side.spread(boxes) < zero)).bits();
+                octants &= ~(anywhere & (side.at(boxes.middle) + side.spread(boxes) < zero)).bits();
         if (octants == 0) return 0;
         const OctantFloats quarter(1.0F / kBlockSide);
         const auto block = [&](const OctantFloats& pixel)

@@ -52,8 +52,7 @@ class PrimaryTracer {
         const CompactOctree& octree = job_.scene.octree();
         const Slot triangle_end = job_.scene.triangle_end();
         const Frustum frustum(job_.camera, tile_, job_.scene.reach());
-        const TriangleCulling triangle_culling(job_.scene, job_.camera, frustum);
-        CulledTriangles triangles(job_.scene, triangle_culling);
+        CulledTriangles triangles(job_.scene, job_.camera, frustum);
         const auto fetch = [&](const Slot* slots, std::size_t count)
                                HWY_ATTR { advance_triangles(slots, count); };
         job_.mailbox.start();
@@ -80,7 +79,7 @@ class PrimaryTracer {
   private:
     static constexpr float kInfinity = std::numeric_limits<float>::infinity();
     static constexpr std::size_t kBatch = BoxCulling::kBatch;
-    static_assert(kBatch == TriangleCulling::kBatch && kBatch == CornerFetch::kBatch &&
+    static_assert(kBatch == CulledTriangles::kBatch && kBatch == CornerFetch::kBatch &&
                   kBatch == SphereConics::kMost);
     // Up to so many blocks are tested one by one: from 2 to 7 the time was the same.
     static constexpr int kFewBlocks = 4;

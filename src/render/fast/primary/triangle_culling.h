@@ -98,15 +98,16 @@ class CulledTriangles {
   public:
     static constexpr std::size_t kBatch = TriangleCulling::kBatch;
 
-    CulledTriangles(const FastScene& scene, const TriangleCulling& culling)
-        : triangles_(scene.triangles()), culling_(culling) {}
+    CulledTriangles(const FastScene& scene, const CameraRays& camera, const Frustum& frustum)
+        : triangles_(scene.triangles()), culling_(scene, camera, frustum) {}
 
     /// Adds one. Calls use(slots, kBatch) for those that may show.
     template <typename Use>
     HWY_INLINE void add(Slot slot, Use&& use) {
         prefetch_corners(triangles_[slot]);
-        met_[newest_][met_count_++] = slot;
-        if (met_count_ == kBatch) advance(use);
+        Batch& newest = met_[newest_];
+        newest.slots[newest.count++] = slot;
+        if (newest.count == kBatch) advance(use);
     }
     /// Calls use(slots, count) for all that are left.
     template <typename Use>
@@ -117,17 +118,20 @@ class CulledTriangles {
     }
 
   private:
+    struct Batch {
+        std::size_t count = 0;
+        Slot slots[kBatch] = {};
+    };
+
     template <typename Use>
     HWY_NOINLINE void advance(Use&& use) {
-        waiting_[newest_] = met_count_;
         newest_ = 1 - newest_;
-        const std::size_t count = std::exchange(waiting_[newest_], std::size_t{0});
-        met_count_ = 0;
+        Batch& oldest = met_[newest_];
+        const std::size_t count = std::exchange(oldest.count, std::size_t{0});
         if (count == 0) return;
-        const Slot* const slots = met_[newest_];
-        const RayMask kept = culling_.keeps(slots) & RayMask::from_bits((1U << count) - 1);
-        kept_count_ +=
-            Ints::load(slots).compress_store(kept_ + kept_count_, mask_for<std::int32_t>(kept));
+        const RayMask kept = culling_.keeps(oldest.slots) & RayMask::from_bits((1U << count) - 1);
+        kept_count_ += Ints::load(oldest.slots)
+                           .compress_store(kept_ + kept_count_, mask_for<std::int32_t>(kept));
         if (kept_count_ < kBatch) return;
         use(kept_, kBatch);
         kept_count_ -= kBatch;
@@ -135,11 +139,9 @@ class CulledTriangles {
     }
 
     const BigVector<LocalTriangle>& triangles_;
-    const TriangleCulling& culling_;
-    Slot met_[2][kBatch] = {};
-    std::size_t waiting_[2] = {};  // of the batch that is not the newest
+    TriangleCulling culling_;
+    Batch met_[2];
     std::size_t newest_ = 0;
-    std::size_t met_count_ = 0;  // of the newest
     Slot kept_[2 * kBatch] = {};
     std::size_t kept_count_ = 0;
 };

@@ -8,7 +8,6 @@
 
 #include <hwy/highway.h>
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -433,33 +432,6 @@ HWY_INLINE float highest(const Floats& v) {
     auto all = v.part[0];
     for (std::size_t i = 1; i < Floats::Shape::kParts; ++i) all = hn::Max(all, v.part[i]);
     return hn::GetLane(hn::MaxOfLanes(Floats::Tag(), all));
-}
-
-/// The highest of each of the four bytes.
-HWY_INLINE std::uint32_t highest_bytes(const Ints& v) {
-#if HWY_TARGET == HWY_SCALAR
-    std::uint32_t all = 0;
-    for (const auto& part : v.part) {
-        const auto lane = static_cast<std::uint32_t>(hn::GetLane(part));
-        for (const std::uint32_t byte : {0xffU, 0xff00U, 0xff0000U, 0xff000000U})
-            all = std::max(all & byte, lane & byte) | (all & ~byte);
-    }
-    return all;
-#else
-    using Shape = Ints::Shape;
-    const Ints::Tag tag;
-    const hn::Repartition<std::uint8_t, Ints::Tag> bytes;
-    auto all = v.part[0];
-    const auto add = [&](const auto& other) HWY_ATTR {
-        all = hn::BitCast(tag, hn::Max(hn::BitCast(bytes, all), hn::BitCast(bytes, other)));
-    };
-    for (std::size_t i = 1; i < Shape::kParts; ++i) add(v.part[i]);
-    if constexpr (Shape::kPart > 8) add(hn::Reverse(tag, all));
-    if constexpr (Shape::kPart > 4) add(hn::Reverse8(tag, all));
-    add(hn::Reverse4(tag, all));
-    add(hn::Reverse2(tag, all));
-    return static_cast<std::uint32_t>(hn::GetLane(all));
-#endif
 }
 
 }  // namespace nuvo::HWY_NAMESPACE
