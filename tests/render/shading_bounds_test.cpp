@@ -21,10 +21,12 @@ constexpr unsigned kSeed = 20261141;
 struct Attained {
     double share = 0;
     int judged = 0;
+    int told = 0;  ///< well enough for most bytes
 
     /// `slack`: what the doubles themselves may be off.
     void judge(double error, double bound, double slack, const std::string& where) {
         ++judged;
+        if (bound < 0x1p-18) ++told;
         ASSERT_LE(error, bound + slack) << where;
         if (bound > 0) share = std::fmax(share, error / bound);
     }
@@ -113,7 +115,8 @@ constexpr const char* kNames[] = {"sun", "lamp", "fading lamp", "spot"};
 
 class Judge {
   public:
-    explicit Judge(unsigned seed) : random_(seed) {}
+    /// `slack`: what the doubles' depths may be off, relatively.
+    explicit Judge(unsigned seed, double slack = 0x1p-40) : random_(seed), slack_(slack) {}
 
     /// `moved` is how far points and normals are moved within errors that say so; negative: as they
     /// come about.
@@ -152,8 +155,8 @@ class Judge {
             if (!is_told(tile, scratch, lane)) continue;
             const auto truth = shown.surface(tile, lane);
             const double depth = shown.depth(truth.point);  // t: the view's part of rays is 1
-            ASSERT_LE(static_cast<double>(tile.near_low[lane]) * depth, 1 + 0x1p-40);
-            ASSERT_GE(static_cast<double>(tile.near_high[lane]) * depth, 1 - 0x1p-40);
+            ASSERT_LE(static_cast<double>(tile.near_low[lane]) * depth, 1 + slack_);
+            ASSERT_GE(static_cast<double>(tile.near_high[lane]) * depth, 1 - slack_);
             const bool curved =
                 !std::holds_alternative<TriangleMesh>(shown.object(tile, lane).shape);
             const bool by_normal = bit(scratch.smooth, lane);
@@ -231,6 +234,7 @@ class Judge {
     }
 
     std::mt19937_64 random_;
+    double slack_;
     double moved_ = 0;
 };
 
@@ -279,6 +283,38 @@ TEST(ShadingBounds, HoldPointsNormalsAndLight) {
             expect(moving.lobe[kind], kMovedLobe[kind], name + "'s lobe seen from elsewhere");
         }
     }
+}
+
+// A ground far wider than all that stands on it, lamps among that.
+TEST(ShadingBounds, HoldLampsOnAWideGround) {
+    SceneMaker maker(kSeed + 4);
+    std::mt19937_64 random(kSeed + 5);
+    Judge judge(kSeed + 6, 1);  // its corners round the points
+    for (int round = 0; round < 600; ++round) {
+        SCOPED_TRACE("seed " + std::to_string(kSeed + 4) + ", round " + std::to_string(round));
+        Scene scene = scene_of(maker, round);
+        const Vector3 x = normalized(uniform_point(random, 1));
+        const Vector3 y =
+            normalized(cross(x, uniform_point(random, 1))) * std::exp2(-uniform(random, 0, 8)) + x;
+        const double half = std::exp2(uniform(random, 14, 26));
+        const Point3 middle = uniform_point(random, 4);
+        TriangleMesh ground;
+        for (const int corner : {0, 1, 2, 3})
+            ground.positions.push_back(middle + x * ((corner & 1) != 0 ? half : -half) +
+                                       y * ((corner & 2) != 0 ? half : -half));
+        ground.triangles = {{0, 1, 3}, {0, 3, 2}};
+        Object object;
+        object.shape = ground;
+        object.shape_index = static_cast<std::uint32_t>(scene.shape_count++);
+        object.solid = false;
+        scene.objects.push_back(object);
+        for (Light& light : scene.lights) light.scope = {};
+        judge.judge(scene, supported_instruction_sets().front(), 0);
+        if (HasFailure()) return;
+    }
+    EXPECT_GT(judge.shine[kLamp].judged, 20'000);
+    EXPECT_GT(judge.shine[kLamp].share, 0.2);
+    EXPECT_GT(judge.shine[kLamp].told, judge.shine[kLamp].judged / 2);
 }
 
 }  // namespace

@@ -24,6 +24,8 @@ HWY_BEFORE_NAMESPACE();
 namespace nuvo::HWY_NAMESPACE {
 
 constexpr double kMagnitudes = 0x1p15;
+// Bounds that error and the length's roundings in units of the magnitudes' sum over the product.
+constexpr double kNormalShare = 0x1p-48;
 // Squares of smaller products may be subnormal.
 constexpr double kSmallestSquare = 0x1p-900;
 
@@ -38,7 +40,9 @@ struct Surfaces {
 class TriangleFiller {
   public:
     explicit TriangleFiller(ShadingTables& tables)
-        : tables_(tables), scale_(tables.scene.frame().scale) {}
+        : tables_(tables),
+          scale_(tables.scene.frame().scale),
+          plane_error_(plane_error(tables.scene.frame())) {}
 
     void run(const TriangleChunk& chunk) {
         const FastScene& scene = tables_.scene;
@@ -59,6 +63,8 @@ class TriangleFiller {
     }
 
   private:
+    static constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
+
     void enter(std::uint32_t object) {
         const Object& shown = tables_.scene.scene().objects[object];
         mesh_ = &std::get<TriangleMesh>(shown.shape);
@@ -93,17 +99,21 @@ class TriangleFiller {
         const Wide magnitudes = abs(t.e1.y * t.e2.z) + abs(t.e1.z * t.e2.y) + abs(t.e1.z * t.e2.x) +
                                 abs(t.e1.x * t.e2.z) + abs(t.e1.x * t.e2.y) + abs(t.e1.y * t.e2.x);
         const Wide square = dot(n, n);
-        auto known = (magnitudes < norm1(n) * Wide(kMagnitudes)) & (square > Wide(kSmallestSquare));
+        const Wide norm1_of_n = norm1(n);
+        const Wide edges = norm1(t.e1) + norm1(t.e2);
+        plane_off_ = edges * magnitudes * Wide(kNormalShare) / norm1_of_n;
+        auto known =
+            (magnitudes < norm1_of_n * Wide(kMagnitudes)) & (square > Wide(kSmallestSquare));
         n = n * (Wide(1.0) / sqrt(square));
         // The side that the camera is on, seen from every point of the triangle.
         const Wide side = dot(n, t.from);
-        const Wide reach = norm1(t.from) + norm1(t.e1) + norm1(t.e2);
+        const Wide reach = norm1(t.from) + edges;
         const auto sided = known & (abs(side) > reach * Wide(4 * kTriangleNormalError));
         const auto two_sided = Wide::load(surfaces_.two_sided) > Wide(0.0);
         const auto behind = side > Wide(0.0);
         known = sided | (known & ~two_sided);
         const Wide one(1.0);
-        const Wide unknown(std::numeric_limits<double>::quiet_NaN());
+        const Wide unknown(kNotKnown);
         const Wide turned = select(behind & two_sided, -one, one);
         store(n * select(known, turned, unknown), a, first, count);
         if (!surfaces_.any_smooth) return;
@@ -118,17 +128,23 @@ class TriangleFiller {
             BigVector<float>& cosines = tables_.triangles.cosines[i];
             if (cosines.empty()) continue;
             const Light& exact = tables_.scene.scene().lights[i];
-            const Wide gain(light.exact_gain);
-            const Wide value = light.directional
-                                   ? dot(n, wide(-exact.direction)) * gain
-                                   : dot(n, (wide(exact.location) - a) * Wide(scale_)) * gain;
-            spread(value, cosines.data() + first, 1, count);
+            const Wide value =
+                light.directional
+                    ? dot(n, wide(-exact.direction))
+                    : within_plane_error(dot(n, (wide(exact.location) - a) * Wide(scale_)));
+            spread(value * Wide(light.exact_gain), cosines.data() + first, 1, count);
         }
         if (tables_.triangles.normals.empty()) return;
         float* normals = tables_.triangles.normals.data() + 4 * static_cast<std::size_t>(first);
         spread(n.x, normals, 4, count);
         spread(n.y, normals + 1, 4, count);
         spread(n.z, normals + 2, 4, count);
+    }
+    // n.(L - a), NaN where the plane is off by more than plane_error() allows.
+    HWY_INLINE Wide within_plane_error(const Wide& distance) const {
+        constexpr double kHalfRoundoff = 0x1p-25;
+        const Wide most = abs(distance) * Wide(kHalfRoundoff) + Wide(plane_error_);
+        return select(plane_off_ <= most, distance, Wide(kNotKnown));
     }
     static HWY_INLINE void spread(const Wide& v, float* to, std::size_t stride, std::size_t count) {
         if (stride == 1 && count == kBatch) {
@@ -151,6 +167,8 @@ class TriangleFiller {
 
     ShadingTables& tables_;
     double scale_;
+    double plane_error_;
+    Wide plane_off_;  // bounds how far the batch's planes are off at their triangles' points
     Surfaces surfaces_;
     // The object that the next triangles belong to.
     const TriangleMesh* mesh_ = nullptr;

@@ -91,7 +91,8 @@ class LightSampler {
     };
 
     // gain n.l of flat triangles. Directional: the table's rounding. Else the table's n.(L - a)
-    // over |L - P|: also that of the product and those of the inverse length.
+    // over |L - P|: also half a one of its own, that of the product and those of the inverse
+    // length.
     HWY_INLINE Lit flat(int first, const Toward& toward) const {
         const Ints slot = Ints::load(tile_.slot + first);
         const auto known = (slot > Ints(-1)) & (slot < Ints(tables_.scene.triangle_end()));
@@ -101,9 +102,10 @@ class LightSampler {
                                     Floats(light_.cosine_error))};
         } else {
             const Floats value = cosine * toward.inverse;
-            const Floats relative = toward.relative + Floats(roundings(2) + tint_rounding_);
-            return {value,
-                    mul_add(abs(value), relative, Floats(light_.cosine_error) * toward.inverse)};
+            const Floats relative = toward.relative + Floats(roundings(3) + tint_rounding_);
+            return {value, mul_add(abs(value), relative,
+                                   mul_add(toward.inverse, Floats(light_.plane_error),
+                                           Floats(light_.cosine_error)))};
         }
     }
 

@@ -188,10 +188,10 @@ void place_light(const ShadingTables& tables, const Light& exact, ShadingLight& 
     const double reach = farthest(scene, location);
     light.ranged = !(exact.radius * scale > reach * kSlack);
     light.radius = rounded(exact.radius * scale);
-    // Of n.(L - a): the normal's, and that P is not quite in the plane.
-    light.cosine_error = rounded_up(
-        light.exact_gain *
-        (2 * kTriangleNormalError * reach + world_rounding(scene, exact.location)) * kSlack);
+    // What n.(L - a) is off by beside the normal's error times |L - P|.
+    light.plane_error =
+        rounded_up(light.exact_gain *
+                   (plane_error(scene.frame()) + world_rounding(scene, exact.location)) * kSlack);
 }
 
 void aim_spot(const Light& exact, ShadingLight& light) {
@@ -217,11 +217,11 @@ ShadingLight shading_light(const ShadingTables& tables, const Light& exact) {
     const std::size_t objects = tables.scene.scene().objects.size();
     light.scoped = exact.scope.first > 0 || exact.scope.last < objects;
     light.directional = exact.kind == Light::Kind::kDirectional;
+    light.cosine_error = rounded_up(light.exact_gain * 2 * kTriangleNormalError);
     light.spot = exact.kind == Light::Kind::kSpot;
     if (light.directional) {
         if (exact.direction == Vector3{}) light.dead = true;
         for (int axis = 0; axis < 3; ++axis) light.toward[axis] = rounded(-exact.direction[axis]);
-        light.cosine_error = rounded_up(light.exact_gain * 2 * kTriangleNormalError);
     } else {
         place_light(tables, exact, light);
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -23,6 +24,12 @@ namespace nuvo {
 /// Bounds |n - n'| of a triangle's normals as a table and as surface_point() compute them (see
 /// shading_cosines.cpp).
 inline constexpr double kTriangleNormalError = 0x1p-34;
+/// Bounds how far off its plane a triangle's points may lie by such a normal's error, unless half a
+/// float's roundoff of the light's distance from the plane allows more; in the local frame.
+/// [numerics: light on flat triangles]
+inline double plane_error(const LocalFrame& frame) {
+    return 0x1p-29 * std::fmax(4 * frame.dense, 0x1p-12);
+}
 /// Outweighs second-order terms and the roundings of a bound's own computation.
 inline constexpr float kSlack = 1.02F;
 /// 1 / (1 - x) <= 1 + kSecondOrder x for x < kSmall.
@@ -72,7 +79,9 @@ struct ShadingLight {
     float radius = 0;                  ///< local
     float cut_off = 0;
     float inverse_width = 0;  ///< 1 / (cut_off - the beam's width); infinite: a sharp edge
-    float cosine_error = 0;   ///< of ShadingTriangles::cosines: absolute, beside one rounding
+    float cosine_error = 0;   ///< of ShadingTriangles::cosines: absolute, beside one rounding;
+                              ///< not directional: once divided by |L - P|
+    float plane_error = 0;    ///< not directional: before that, and half a rounding
 };
 
 /// The interpolated normal of a triangle as a function of the pixel, but for its length: in the
