@@ -165,6 +165,53 @@ TEST(KeptTables, ServePicturesOfOtherCameras) {
     }
 }
 
+// Where a picture shows most of a large scene, tables are made of all of it for a light that
+// reaches all, and of a few items for one that reaches little.
+TEST(KeptTables, ListFewItemsForALightThatReachesLittle) {
+    constexpr Resolution kSize{160, 120};
+    constexpr int kSide = 240;
+    constexpr unsigned kSeed = 20261191;
+    std::mt19937_64 random(kSeed);
+    Scene scene;
+    scene.materials.emplace_back();
+    TriangleMesh ground;
+    for (int i = 0; i <= kSide; ++i)
+        for (int k = 0; k <= kSide; ++k)
+            ground.positions.push_back(
+                {i * 2.0 / kSide - 1, uniform(random, 0, 0.02), k * 2.0 / kSide - 1});
+    for (std::uint32_t i = 0; i < kSide; ++i)
+        for (std::uint32_t k = 0; k < kSide; ++k) {
+            const std::uint32_t at = i * (kSide + 1) + k;
+            ground.triangles.push_back({at, at + 1, at + kSide + 1});
+            ground.triangles.push_back({at + 1, at + kSide + 2, at + kSide + 1});
+        }
+    scene.objects.push_back({ground, 0, 0});
+    scene.lights.resize(2);
+    scene.lights[0].direction = normalized(Vector3{-1, -0.2, -0.3});
+    Light& spot = scene.lights[1];
+    spot.kind = Light::Kind::kSpot;
+    spot.location = {0.4, 0.3, 0.4};
+    spot.direction = {0, -1, 0};
+    spot.cut_off_angle = spot.beam_width = 0.4;
+    const Primitives primitives = flatten(scene, LeafContent::kPrimitives);
+    const FastScene fast(scene, primitives, OctreeType::kUniform, 1);
+    SerialTree serial(fast);
+    KeptTables kept;
+    for (const double x : {0.0, 0.3}) {
+        scene.camera = testing::camera_along({x, 1.6, 0}, {0, -1, 0.01});
+        Frame frame(serial, {OctreeType::kUniform, 2}, kSize, nullptr, kept);
+        EXPECT_EQ(
+            testing::difference(testing::exact_picture(scene, primitives, kSize), frame.render()),
+            "")
+            << "seed " << kSeed;
+        ASSERT_NE(kept.shadows(), nullptr);
+        EXPECT_TRUE(kept.shadows()->table(0).complete);
+        EXPECT_TRUE(kept.shadows()->table(0).buffer.usable());
+        EXPECT_FALSE(kept.shadows()->table(1).complete);
+        EXPECT_LT(kept.shadows()->table(1).slots.size(), fast.slot_end() / 4);
+    }
+}
+
 TEST(KeptTables, CountWhatTheirThreadsKnow) {
     Scene scene;
     scene.materials.emplace_back();

@@ -348,46 +348,71 @@ void Frame::make_tables_of_hits() {
             return;
         }
     }
-    // Where most is seen most may hide something.
-    constexpr std::size_t kMostSeen = 4;
-    const bool few =
-        listing_ != ShadowListing::kMeasured || seen.size() * kMostSeen <= scene_.slot_end();
     tables_->shadow = &kept_.keep_shadows(camera, size, [&] {
-        if (few)
-            return ShadowTables(scene_, options_.isa, options_.threads, find_wanted(!is_first));
+        const std::vector<char> listed = listed_lights();
+        if (std::find(listed.begin(), listed.end(), 1) != listed.end())
+            return ShadowTables(scene_, options_.isa, options_.threads,
+                                find_wanted(listed, !is_first));
         ShadowTables all(scene_, options_.isa, options_.threads);
         fill_tables(scene_, options_.threads, all);
         return all;
     });
 }
 
+// Calls use(light, tile, wanted lanes) as Worker::want() does, for one of 16 tiles.
+template <typename Use>
+void Frame::for_some_points(Use&& use) {
+    constexpr std::size_t kStep = 16;
+    for_each_tile([&](Worker& worker, std::size_t i) {
+        if (i % kStep == 0) worker.want(i, use);
+    });
+}
+
+// By light: whether its shadows are listed for the points that it may reach. Where the picture
+// shows much, most may hide something from lights that reach much of it.
+std::vector<char> Frame::listed_lights() {
+    constexpr std::size_t kMostSeen = 4;  // of all triangles
+    constexpr std::size_t kMostLit = 8;   // of the points seen
+    const std::size_t lights = scene_.scene().lights.size();
+    if (listing_ != ShadowListing::kMeasured ||
+        tables_->hits.seen->size() * kMostSeen <= scene_.slot_end())
+        return std::vector<char>(lights, 1);
+    std::vector<std::atomic<std::size_t>> seen(lights);
+    std::vector<std::atomic<std::size_t>> lit(lights);
+    for_some_points([&](std::size_t light, const Tile& tile, const TileMask& wanted) {
+        seen[light] += lane_count(tile.hit);
+        lit[light] += lane_count(wanted);
+    });
+    std::vector<char> listed(lights);
+    for (std::size_t light = 0; light < lights; ++light)
+        listed[light] = lit[light] * kMostLit <= seen[light] ? 1 : 0;
+    return listed;
+}
+
 // Whether kept tables list enough for all but a few points, as far as some tiles tell; the few walk
 // the octree.
 bool Frame::serves(const ShadowTables& kept) {
     if (listing_ == ShadowListing::kKept || kept.complete()) return true;
-    constexpr std::size_t kStep = 16;   // one of so many tiles is asked
     constexpr std::size_t kMost = 128;  // points to one that is not served
     std::atomic<std::size_t> asked = 0;
     std::atomic<std::size_t> served = 0;
-    for_each_tile([&](Worker& worker, std::size_t i) {
-        if (i % kStep != 0) return;
-        worker.want(i, [&](std::size_t light, const Tile& tile, TileMask& lanes) {
-            asked += lane_count(lanes);
-            if (kept.table(light).wanted) kept.table(light).wanted->keep_covered(tile, lanes);
-            served += lane_count(lanes);
-        });
+    for_some_points([&](std::size_t light, const Tile& tile, TileMask& lanes) {
+        asked += lane_count(lanes);
+        if (kept.table(light).wanted) kept.table(light).wanted->keep_covered(tile, lanes);
+        served += lane_count(lanes);
     });
     return (asked - served) * kMost <= asked;
 }
 
-// Of each light, where it tells places, how deep the points are that this picture shows;
+// Of some lights, where they tell places, how deep the points are that this picture shows;
 // `and_near`: and those near them.
-std::vector<std::optional<WantedDepths>> Frame::find_wanted(bool and_near) {
-    std::vector<std::optional<WantedDepths>> all;
-    for (const Light& light : scene_.scene().lights) {
-        std::optional<WantedDepths>& depths = all.emplace_back();
-        if (light.casts_shadow)
-            depths = WantedDepths::of(scene_, LightPoint(light, scene_.frame()), options_.isa);
+std::vector<std::optional<WantedDepths>> Frame::find_wanted(const std::vector<char>& lights,
+                                                            bool and_near) {
+    std::vector<std::optional<WantedDepths>> all(lights.size());
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        const Light& light = scene_.scene().lights[i];
+        if (light.casts_shadow && lights[i] != 0)
+            all[i] = WantedDepths::of(scene_, LightPoint(light, scene_.frame()), options_.isa);
     }
     for_each_tile([&](Worker& worker, std::size_t i) {
         worker.want(i, [&](std::size_t light, const Tile& tile, const TileMask& wanted) {

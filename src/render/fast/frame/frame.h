@@ -42,8 +42,12 @@ class Frame {
     void for_each_tile(Work&& work);
     void find_hits();
     void make_tables_of_hits();
+    template <typename Use>
+    void for_some_points(Use&& use);
     bool serves(const ShadowTables& kept);
-    std::vector<std::optional<WantedDepths>> find_wanted(bool and_near);
+    std::vector<char> listed_lights();
+    std::vector<std::optional<WantedDepths>> find_wanted(const std::vector<char>& lights,
+                                                         bool and_near);
 
     SerialTree& serial_;
     const FastScene& scene_;

@@ -51,23 +51,32 @@ ShadowTables::ShadowTables(const FastScene& scene, InstructionSet isa, int threa
     : scene_(scene), isa_(isa), threads_(threads), dense_(rounded_up(scene.frame().dense)) {
     make_tables();
     for_each_quadric_part(scene, threads, [&](QuadricSpan some) { take_quadrics(some); });
+    std::vector<char> was_wanted(tables_.size());
     for (std::size_t light = 0; light < tables_.size(); ++light) {
         ShadowTable& table = tables_[light];
         if (!scene_.scene().lights[light].casts_shadow) continue;
         forget_outside(table);
         table.wanted = std::move(wanted[light]);
+        was_wanted[light] = table.wanted.has_value() ? 1 : 0;
         if (table.wanted) list_wanted(table, light);
     }
     for_each_index(threads, tables_.size(), [&](std::size_t light, int) {
         if (!tables_[light].complete) fill_buffer(tables_[light]);
     });
+    std::vector<std::size_t> whole;
     for (std::size_t light = 0; light < tables_.size(); ++light) {
-        ShadowTable& table = tables_[light];
-        if (!table.complete || !scene_.scene().lights[light].casts_shadow) continue;
-        list_all(table, light);
-        for_each_chunk(scene, threads,
-                       [&](const TriangleChunk& chunk) { make_planes(table, light, chunk); });
+        if (!tables_[light].complete || !scene_.scene().lights[light].casts_shadow) continue;
+        list_all(tables_[light], light);
+        whole.push_back(light);
     }
+    if (whole.empty()) return;
+    for_each_chunk(scene, threads, [&](const TriangleChunk& chunk) {
+        for (const std::size_t light : whole) make_planes(tables_[light], light, chunk);
+    });
+    for_each_index(threads, whole.size(), [&](std::size_t i, int) {
+        // Not of lights whose lists were too long before.
+        if (!was_wanted[whole[i]]) fill_whole_buffer(tables_[whole[i]]);
+    });
 }
 
 void ShadowTables::make_tables() {
@@ -152,11 +161,15 @@ void ShadowTables::finish() {
     for_each_index(threads_, tables_.size(), [&](std::size_t light, int) {
         ShadowTable& table = tables_[light];
         if (!scene_.scene().lights[light].casts_shadow) return;
-        LightItems all = items();
-        all.hides = table.hides.data();
-        table.buffer = LightBuffer(table.light, all, isa_);
+        fill_whole_buffer(table);
         forget_outside(table);
     });
+}
+
+void ShadowTables::fill_whole_buffer(ShadowTable& table) const {
+    LightItems all = items();
+    all.hides = table.hides.data();
+    table.buffer = LightBuffer(table.light, all, isa_);
 }
 
 Quadric ShadowTables::quadric_of(const Shape& shape) const {

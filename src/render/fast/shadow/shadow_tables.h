@@ -50,7 +50,7 @@ class ShadowTables {
   public:
     /// Of all items; fill_tables() fills them.
     ShadowTables(const FastScene& scene, InstructionSet isa, int threads = 1);
-    /// Of what may stand before the wanted points of each light; of all where these are not known.
+    /// Of what may stand before the wanted points of each light; of all where these are not given.
     ShadowTables(const FastScene& scene, InstructionSet isa, int threads,
                  std::vector<std::optional<WantedDepths>> wanted);
 
@@ -84,6 +84,7 @@ class ShadowTables {
     void list_all(ShadowTable& table, std::size_t light);
     void list_wanted(ShadowTable& table, std::size_t light);
     void fill_buffer(ShadowTable& table) const;
+    void fill_whole_buffer(ShadowTable& table) const;
     LightItems items() const { return {scene_, quadrics_, quadric_touch_}; }
     void make_planes(ShadowTable& table, std::size_t light, const TriangleChunk& chunk) const;
     static void forget_outside(ShadowTable& table);
