@@ -82,6 +82,9 @@ class LightBufferMaker {
         std::uint8_t rows;
         std::uint8_t grid;
     };
+    struct Entry {
+        std::uint32_t word[LightGroup::kWords];
+    };
     // The same for 16 items.
     struct Cells {
         HWY_INLINE Cells(const LightGrid& grid, int face, const Ints (&low)[2],
@@ -261,11 +264,10 @@ class LightBufferMaker {
         out_.entries.resize(LightGroup::kWords *
                             (std::size_t{out_.starts[cells_]} + LightGroup::kMost));
         next_.assign(out_.starts.begin(), out_.starts.end() - 1);
+        std::for_each_n(records_.begin(), used_,
+                        [&](const Record& record) HWY_ATTR { list(record); });
         if (out_.near_first)
-            for (const auto& [near, i] : by_nearness()) list(records_[i]);
-        else
-            std::for_each_n(records_.begin(), used_,
-                            [&](const Record& record) HWY_ATTR { list(record); });
+            for (std::size_t cell = 0; cell < cells_; ++cell) sort(cell);
         const LightGrid coarsest = out_.grids.back();
         std::erase_if(out_.grids, [&](const LightGrid& grid) {
             return out_.starts[grid.first_cell] == out_.starts[grid.first_cell + cells_of(grid)];
@@ -289,12 +291,26 @@ class LightBufferMaker {
             words[2 * count] = item.place;
         });
     }
-    std::vector<std::pair<float, std::uint32_t>> by_nearness() const {
-        std::vector<std::pair<float, std::uint32_t>> order(used_);
-        for (std::size_t i = 0; i < used_; ++i)
-            order[i] = {records_[i].item.near, static_cast<std::uint32_t>(i)};
-        std::sort(order.begin(), order.end());
-        return order;
+    // Puts first what is near the light, where a list is longer than what is looked at in any case.
+    void sort(std::size_t cell) {
+        const std::uint32_t begin = out_.starts[cell];
+        const std::uint32_t end = out_.starts[cell + 1];
+        if (end - begin <= LightBuffer::kRound) return;
+        sorted_.resize(end - begin);
+        const auto for_each_word = [&](auto&& use) {
+            for (std::uint32_t at = begin; at < end; at += LightGroup::kMost) {
+                const std::uint32_t count = out_.group(at, end).count;
+                std::uint32_t* word = out_.entries.data() + LightGroup::kWords * std::size_t{at};
+                for (std::size_t k = 0; k < LightGroup::kWords; ++k)
+                    for (std::uint32_t i = 0; i < count; ++i)
+                        use(*word++, sorted_[at - begin + i].word[k]);
+            }
+        };
+        for_each_word([](std::uint32_t listed, std::uint32_t& word) { word = listed; });
+        std::sort(sorted_.begin(), sorted_.end(), [](const Entry& a, const Entry& b) {
+            return std::bit_cast<float>(a.word[1]) < std::bit_cast<float>(b.word[1]);
+        });
+        for_each_word([](std::uint32_t& listed, std::uint32_t word) { listed = word; });
     }
     // Points in several cells look at no list of empty ones; that does not pay where few are empty.
     void find_empty_cells(LightGrid& grid) {
@@ -324,6 +340,7 @@ class LightBufferMaker {
     BigVector<Record> records_;
     BigVector<std::uint32_t> next_;  // of each cell: where its next entry goes
     std::size_t used_ = 0;
+    std::vector<Entry> sorted_;  // a list's
 };
 
 void make_light_buffer(LightBuffer& out, const LightPoint& light, const LightItems& items) {

@@ -94,6 +94,8 @@ struct CellSteps {
 /// cells.
 struct LightBuffer {
     static constexpr std::size_t kMaxGrids = 4;
+    /// So many entries of a list are looked at before it is asked what they blocked.
+    static constexpr std::uint32_t kRound = 4 * LightGroup::kMost;
 
     LightBuffer() = default;
     LightBuffer(const LightPoint& light, const LightItems& items, InstructionSet isa);
@@ -111,7 +113,7 @@ struct LightBuffer {
     }
 
     LightMap map;
-    bool near_first = false;           ///< lists are sorted by nearness
+    bool near_first = false;           ///< lists longer than kRound are sorted by nearness
     std::vector<LightGrid> grids;      ///< from fine to coarse
     BigVector<std::uint32_t> starts;   ///< of the cells' lists, and the end
     BigVector<std::uint32_t> entries;  ///< in groups, and room for one more to be read

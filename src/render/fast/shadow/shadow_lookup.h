@@ -74,7 +74,7 @@ class ShadowLookup {
     void run() {
         for (int i = 0; i < visit_count_; ++i) find_list(visits_[i]);
         const std::uint32_t round =
-            buffer_.near_first ? LightGroup::kMost : std::numeric_limits<std::uint32_t>::max();
+            buffer_.near_first ? LightBuffer::kRound : std::numeric_limits<std::uint32_t>::max();
         while (visit_count_ > 0) {
             int left = 0;
             for (int i = 0; i < visit_count_; ++i)
