@@ -45,7 +45,6 @@ class ShadowPicture {
     /// Pixels whose lights differ from the exact profile's. `lights` = 0: the scene's.
     int wrong_pixels(InstructionSet isa) {
         ShadowTables tables(fast_, isa);
-        fill_tables(fast_, 1, tables);
         PairShadows pairs(fast_);
         ShadowStage stage(tables, pairs, isa, true);
         int wrong = 0;
@@ -233,7 +232,6 @@ TEST(ShadowPlanes, NeverContradictTheExactPredicateWhereTheyAreSure) {
         const Primitives primitives = flatten(scene, LeafContent::kPrimitives);
         const FastScene fast(scene, primitives, OctreeType::kUniform, 1);
         ShadowTables tables(fast, resolved(InstructionSet::kBest));
-        fill_tables(fast, 1, tables);
         StageCounts counts;
         int sure[2] = {};
         for (int i = 0; i < 40000; ++i) {

@@ -168,7 +168,6 @@ TEST(LightBuffer, ListsEveryItemThatBlocksAPointKnownWellEnough) {
         Occlusion occlusion(scene, fast);
         for (const InstructionSet isa : supported_instruction_sets()) {
             ShadowTables tables(fast, isa);
-            fill_tables(fast, 1, tables);
             for (int i = 0; i < 1500; ++i) {
                 const std::size_t l = random() % scene.lights.size();
                 const LightBuffer& buffer = tables.table(l).buffer;
@@ -201,9 +200,7 @@ struct Stacks {
         : scene(scene_of(of, radius)),
           primitives(flatten(scene, LeafContent::kPrimitives)),
           fast(scene, primitives, OctreeType::kUniform, 1),
-          tables(fast, resolved(InstructionSet::kBest)) {
-        fill_tables(fast, 1, tables);
-    }
+          tables(fast, resolved(InstructionSet::kBest)) {}
 
     Scene scene;
     Primitives primitives;

@@ -103,13 +103,12 @@ TEST_F(TriangleChunkTest, TablesDoNotDependOnWhenAndByHowManyTheyAreFilled) {
     ShadowTables shadow(fast_, isa);
     ShadingTables shading(fast_, rays, camera, isa);
     fill_tables(fast_, 1, shading);
-    fill_tables(fast_, 1, shadow);
     fill_tables(fast_, 1, camera);
     for (const int threads : {1, 2, 7}) {
         CameraTables camera_later(fast_, rays, isa, threads);
         ShadowTables shadow_later(fast_, isa, threads);
         ShadingTables shading_later(fast_, rays, camera_later, isa);
-        fill_tables(fast_, threads, camera_later, shadow_later, shading_later);
+        fill_tables(fast_, threads, camera_later, shading_later);
         ASSERT_EQ(camera.spheres.size(), camera_later.spheres.size());
         for (std::size_t i = 0; i < camera.spheres.size(); ++i) {
             EXPECT_EQ(camera.spheres[i].radius, camera_later.spheres[i].radius);
@@ -132,7 +131,6 @@ TEST_F(TriangleChunkTest, TablesDoNotDependOnWhenAndByHowManyTheyAreFilled) {
 
 TEST_F(TriangleChunkTest, SidesOfALightAreKnownWhereItStandsWithinTheScene) {
     ShadowTables tables(fast_, resolved(InstructionSet::kBest));
-    fill_tables(fast_, 1, tables);
     EXPECT_TRUE(tables.table(0).quadric_sides.empty());  // a direction is outside of all
     const Point3& lamp = scene_.lights[1].location;
     for (Slot slot = fast_.triangle_end(); slot < fast_.slot_end(); ++slot) {
@@ -154,7 +152,6 @@ TEST_F(TriangleChunkTest, ALightWithinASphereIsInsideOfIt) {
     for (const bool solid : {false, true}) {
         scene_.objects[3].solid = solid;
         ShadowTables tables(fast_, resolved(InstructionSet::kBest));
-        fill_tables(fast_, 1, tables);
         ASSERT_FALSE(tables.table(1).quadric_sides.empty());
         EXPECT_EQ(tables.table(1).quadric_sides[0], solid ? LightSide::kBlind : LightSide::kInside);
     }
@@ -165,7 +162,6 @@ TEST_F(TriangleChunkTest, NothingThatCastsNoShadowHidesAnything) {
     const Primitives primitives = flatten(scene_, LeafContent::kPrimitives);
     const FastScene fast(scene_, primitives, OctreeType::kUniform, 1);
     ShadowTables tables(fast, resolved(InstructionSet::kBest));
-    fill_tables(fast, 1, tables);
     for (std::size_t light = 0; light < scene_.lights.size(); ++light) {
         for (Slot slot = 0; slot < fast.triangle_end(); ++slot)
             ASSERT_EQ(tables.table(light).hides[slot / 8] >> slot % 8 & 1, 0);

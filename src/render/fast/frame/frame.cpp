@@ -92,22 +92,21 @@ struct Frame::Tables {
         camera.emplace(scene, rays, options.isa, options.threads);
         surfaces.emplace(scene, rays, *camera, options.isa,
                          std::exchange(kept.shading, std::nullopt));
-        shadow = two_passes ? nullptr : kept.shadows();
+        for_each_quadric_part(scene, options.threads,
+                              [&](QuadricSpan some) { camera->take_quadrics(some); });
+        camera->finish();
         if (two_passes) {
-            take_quadrics(scene, options.threads);
             hits.seen.emplace(scene);
             // Kernels read slot 0 in lanes that show no triangle.
             hits.seen->add(std::array<Slot, 1>{0});
-        } else if (shadow != nullptr && shadow->complete()) {
-            take_quadrics(scene, options.threads);
+        } else {
+            shadow = kept.shadows();
+            if (shadow == nullptr || !shadow->complete())
+                shadow = &kept.keep_shadows(scene.scene().camera, resolution, [&] {
+                    return ShadowTables(scene, options.isa, options.threads);
+                });
             if (!surfaces->triangles.known.has_all())
                 fill_tables(scene, options.threads, *surfaces);
-        } else {
-            shadow = &kept.keep_shadows(scene.scene().camera, resolution, [&] {
-                ShadowTables all(scene, options.isa, options.threads);
-                fill_tables(scene, options.threads, all, *camera, *surfaces);
-                return all;
-            });
         }
         shading.emplace(*surfaces, options.redo_exactly);
     }
@@ -124,11 +123,6 @@ struct Frame::Tables {
     Hits hits;
 
   private:
-    void take_quadrics(const FastScene& scene, int threads) {
-        for_each_quadric_part(scene, threads,
-                              [&](QuadricSpan some) { camera->take_quadrics(some); });
-        camera->finish();
-    }
     // Whether it takes less time to ask each pixel twice than to make all tables of shadows.
     static bool shadows_pay(const FastScene& scene, Resolution resolution) {
         constexpr std::size_t kPixels = 16;     // that cost as much as the tables of an item
@@ -349,13 +343,8 @@ void Frame::make_tables_of_hits() {
         }
     }
     tables_->shadow = &kept_.keep_shadows(camera, size, [&] {
-        const std::vector<char> listed = listed_lights();
-        if (std::find(listed.begin(), listed.end(), 1) != listed.end())
-            return ShadowTables(scene_, options_.isa, options_.threads,
-                                find_wanted(listed, !is_first));
-        ShadowTables all(scene_, options_.isa, options_.threads);
-        fill_tables(scene_, options_.threads, all);
-        return all;
+        return ShadowTables(scene_, options_.isa, options_.threads,
+                            find_wanted(listed_lights(), !is_first));
     });
 }
 
@@ -414,6 +403,8 @@ std::vector<std::optional<WantedDepths>> Frame::find_wanted(const std::vector<ch
         if (light.casts_shadow && lights[i] != 0)
             all[i] = WantedDepths::of(scene_, LightPoint(light, scene_.frame()), options_.isa);
     }
+    if (std::none_of(all.begin(), all.end(), [](const auto& depths) { return depths.has_value(); }))
+        return all;
     for_each_tile([&](Worker& worker, std::size_t i) {
         worker.want(i, [&](std::size_t light, const Tile& tile, const TileMask& wanted) {
             if (all[light]) all[light]->add(tile, wanted);

@@ -14,8 +14,6 @@ namespace {
 
 // A surface that P touches passes within 2 sqrt(3) + 3/4 of P's error. [numerics: shadow ends]
 constexpr double kTouch = 8;
-// Bytes behind the last of ShadowTable::hides, which may be read.
-constexpr std::size_t kReadAhead = 3;
 
 // The sphere around an ellipsoid, so wide that a point outside is not taken to touch it: touching
 // points have |F| <= R' + (1 + sqrt 2) e |rho| in the terms of numerics: shadow ends, and outside
@@ -40,10 +38,11 @@ double radius_around(const Ellipsoid& ellipsoid, double scale, double error) {
 
 }  // namespace
 
-ShadowTables::ShadowTables(const FastScene& scene, InstructionSet isa, int threads)
-    : scene_(scene), isa_(isa), threads_(threads), dense_(rounded_up(scene.frame().dense)) {
-    make_tables();
-    for (std::size_t light = 0; light < tables_.size(); ++light) list_all(tables_[light], light);
+void ShadowTable::hold_triangles(Slot count) {
+    constexpr std::size_t kReadAhead = 3;  // bytes behind the last of `hides`, which may be read
+    triangles = count;
+    planes.resize(count);
+    hides.assign(count / 8 + kReadAhead, 0);
 }
 
 ShadowTables::ShadowTables(const FastScene& scene, InstructionSet isa, int threads,
@@ -51,32 +50,26 @@ ShadowTables::ShadowTables(const FastScene& scene, InstructionSet isa, int threa
     : scene_(scene), isa_(isa), threads_(threads), dense_(rounded_up(scene.frame().dense)) {
     make_tables();
     for_each_quadric_part(scene, threads, [&](QuadricSpan some) { take_quadrics(some); });
-    std::vector<char> was_wanted(tables_.size());
-    for (std::size_t light = 0; light < tables_.size(); ++light) {
-        ShadowTable& table = tables_[light];
-        if (!scene_.scene().lights[light].casts_shadow) continue;
-        forget_outside(table);
-        table.wanted = std::move(wanted[light]);
-        was_wanted[light] = table.wanted.has_value() ? 1 : 0;
-        if (table.wanted) list_wanted(table, light);
-    }
-    for_each_index(threads, tables_.size(), [&](std::size_t light, int) {
-        if (!tables_[light].complete) fill_buffer(tables_[light]);
-    });
+    wanted.resize(tables_.size());
+    std::vector<std::size_t> listed;
     std::vector<std::size_t> whole;
     for (std::size_t light = 0; light < tables_.size(); ++light) {
-        if (!tables_[light].complete || !scene_.scene().lights[light].casts_shadow) continue;
-        list_all(tables_[light], light);
-        whole.push_back(light);
+        if (!scene.scene().lights[light].casts_shadow) continue;
+        forget_outside(tables_[light]);
+        if (wanted[light]) {
+            list_wanted(tables_[light], light, std::move(*wanted[light]));
+            listed.push_back(light);
+        } else {
+            whole.push_back(light);
+        }
     }
-    if (whole.empty()) return;
-    for_each_chunk(scene, threads, [&](const TriangleChunk& chunk) {
-        for (const std::size_t light : whole) make_planes(tables_[light], light, chunk);
-    });
-    for_each_index(threads, whole.size(), [&](std::size_t i, int) {
-        // Not of lights whose lists were too long before.
-        if (!was_wanted[whole[i]]) fill_whole_buffer(tables_[whole[i]]);
-    });
+    const auto fill_buffers = [&](const std::vector<std::size_t>& lights) {
+        for_each_index(threads, lights.size(),
+                       [&](std::size_t i, int) { fill_buffer(tables_[lights[i]]); });
+    };
+    fill_buffers(listed);
+    make_planes_of_all();
+    fill_buffers(whole);
 }
 
 void ShadowTables::make_tables() {
@@ -95,33 +88,37 @@ void ShadowTables::make_tables() {
     }
 }
 
-void ShadowTables::list_all(ShadowTable& table, std::size_t light) {
-    if (!scene_.scene().lights[light].casts_shadow) return;
-    table.triangles = scene_.triangle_end();
-    table.planes.resize(table.triangles);
-    table.hides.resize(table.triangles / 8 + kReadAhead);
-    std::fill(table.hides.begin(), table.hides.end(), std::uint8_t{0});
+void ShadowTables::make_planes_of_all() {
+    std::vector<std::size_t> lights;
+    for (std::size_t light = 0; light < tables_.size(); ++light) {
+        ShadowTable& table = tables_[light];
+        if (!table.complete || !scene_.scene().lights[light].casts_shadow) continue;
+        table.hold_triangles(scene_.triangle_end());
+        lights.push_back(light);
+    }
+    if (lights.empty()) return;
+    for_each_chunk(scene_, threads_, [&](const TriangleChunk& chunk) {
+        for (const std::size_t light : lights) make_planes(tables_[light], light, chunk);
+    });
 }
 
-void ShadowTables::list_wanted(ShadowTable& table, std::size_t light) {
+void ShadowTables::list_wanted(ShadowTable& table, std::size_t light, WantedDepths wanted) {
+    table.wanted = std::move(wanted);
     table.slots = wanted_items(items(), *table.wanted, isa_, threads_);
     table.complete = false;
     LightItems listed = items();
     listed.slots = &table.slots;
-    table.triangles = listed.triangles();
-    table.planes.resize(table.triangles);
-    table.hides.resize(table.triangles / 8 + kReadAhead);
-    std::fill(table.hides.begin(), table.hides.end(), std::uint8_t{0});
+    table.hold_triangles(listed.triangles());
     for_each_chunk(scene_, table.slots, table.triangles, threads_,
                    [&](const TriangleChunk& chunk) { make_planes(table, light, chunk); });
 }
 
 void ShadowTables::fill_buffer(ShadowTable& table) const {
-    LightItems listed = items();
-    listed.slots = &table.slots;
-    listed.hides = table.hides.data();
-    table.buffer = LightBuffer(table.light, listed, isa_);
-    table.buffer.map.most_moved = table.wanted->map().most_moved;
+    LightItems held = items();
+    if (!table.complete) held.slots = &table.slots;
+    held.hides = table.hides.data();
+    table.buffer = LightBuffer(table.light, held, isa_);
+    if (table.wanted) table.buffer.map.most_moved = table.wanted->map().most_moved;
     if (table.buffer.usable()) return;
     // Walks of the octree ask for all.
     table.complete = true;
@@ -140,11 +137,6 @@ void ShadowTables::make_planes(ShadowTable& table, std::size_t light,
     make_shadow_planes(job, chunk, isa_);
 }
 
-void ShadowTables::take(const TriangleChunk& chunk) {
-    for (std::size_t i = 0; i < tables_.size(); ++i)
-        if (scene_.scene().lights[i].casts_shadow) make_planes(tables_[i], i, chunk);
-}
-
 void ShadowTables::take_quadrics(QuadricSpan quadrics) {
     for (const QuadricSlot& quadric : quadrics) {
         scene_.prefetched_after(quadric);
@@ -155,21 +147,6 @@ void ShadowTables::take_quadrics(QuadricSpan quadrics) {
             if (!table.quadric_sides.empty())
                 table.quadric_sides[i] = side(table.light, quadrics_[i], object);
     }
-}
-
-void ShadowTables::finish() {
-    for_each_index(threads_, tables_.size(), [&](std::size_t light, int) {
-        ShadowTable& table = tables_[light];
-        if (!scene_.scene().lights[light].casts_shadow) return;
-        fill_whole_buffer(table);
-        forget_outside(table);
-    });
-}
-
-void ShadowTables::fill_whole_buffer(ShadowTable& table) const {
-    LightItems all = items();
-    all.hides = table.hides.data();
-    table.buffer = LightBuffer(table.light, all, isa_);
 }
 
 Quadric ShadowTables::quadric_of(const Shape& shape) const {

@@ -32,6 +32,8 @@ struct ShadowTable {
     explicit ShadowTable(const LightPoint& from) : light(from) {}
 
     Slot slot(Slot place) const { return complete ? place : slots[place]; }
+    /// Makes room for so many; none hides anything yet.
+    void hold_triangles(Slot count);
 
     LightPoint light;
     bool complete = true;                ///< all items
@@ -48,16 +50,9 @@ struct ShadowTable {
 /// What the shadow stage needs of scene and lights, shared by all threads.
 class ShadowTables {
   public:
-    /// Of all items; fill_tables() fills them.
-    ShadowTables(const FastScene& scene, InstructionSet isa, int threads = 1);
     /// Of what may stand before the wanted points of each light; of all where these are not given.
-    ShadowTables(const FastScene& scene, InstructionSet isa, int threads,
-                 std::vector<std::optional<WantedDepths>> wanted);
-
-    /// For fill_tables(); by several threads at a time.
-    void take(const TriangleChunk& chunk);
-    void take_quadrics(QuadricSpan quadrics);
-    void finish();
+    explicit ShadowTables(const FastScene& scene, InstructionSet isa, int threads = 1,
+                          std::vector<std::optional<WantedDepths>> wanted = {});
 
     const FastScene& scene() const { return scene_; }
     InstructionSet isa() const { return isa_; }
@@ -81,10 +76,10 @@ class ShadowTables {
 
   private:
     void make_tables();
-    void list_all(ShadowTable& table, std::size_t light);
-    void list_wanted(ShadowTable& table, std::size_t light);
+    void take_quadrics(QuadricSpan quadrics);
+    void make_planes_of_all();
+    void list_wanted(ShadowTable& table, std::size_t light, WantedDepths wanted);
     void fill_buffer(ShadowTable& table) const;
-    void fill_whole_buffer(ShadowTable& table) const;
     LightItems items() const { return {scene_, quadrics_, quadric_touch_}; }
     void make_planes(ShadowTable& table, std::size_t light, const TriangleChunk& chunk) const;
     static void forget_outside(ShadowTable& table);
