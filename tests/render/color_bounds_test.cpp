@@ -55,8 +55,7 @@ struct Tables {
           camera(scene.camera, kPicture, fast.frame()),
           spheres(fast, camera, isa),
           shading(fast, camera, spheres, isa) {
-        fill_tables(fast, 1, spheres);
-        fill_tables(fast, 1, shading);
+        shading.fill_all(1);
     }
 
     InstructionSet isa;

@@ -95,9 +95,7 @@ struct OneQuadric {
         : primitives(flatten(with(scene, shape), LeafContent::kPrimitives)),
           fast(scene, primitives, OctreeType::kUniform, 1),
           camera(scene.camera, kPicture, fast.frame()),
-          tables(fast, camera, isa) {
-        fill_tables(fast, 1, tables);
-    }
+          tables(fast, camera, isa) {}
 
     Primitives primitives;
     FastScene fast;

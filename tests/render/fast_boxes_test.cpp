@@ -36,7 +36,6 @@ Findings compare(const Scene& scene, InstructionSet isa) {
     const FastScene fast(scene, primitives, OctreeType::kUniform, 1);
     const CameraRays camera(scene.camera, kSize, fast.frame());
     CameraTables tables(fast, camera, isa);
-    fill_tables(fast, 1, tables);
     const ExactFallback fallback(fast, camera);
     Findings found;
     for (Slot slot = fast.triangle_end(); slot < fast.slot_end(); ++slot) {
@@ -60,7 +59,6 @@ Findings compare_alone(const Scene& scene, InstructionSet isa) {
     const FastScene fast(scene, primitives, OctreeType::kUniform, 1);
     const CameraRays camera(scene.camera, kSize, fast.frame());
     CameraTables tables(fast, camera, isa);
-    fill_tables(fast, 1, tables);
     const ExactFallback fallback(fast, camera);
     static_assert(kSize.width <= kMacroSide && kSize.height <= kMacroSide);
     const auto job =

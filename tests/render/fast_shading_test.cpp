@@ -43,11 +43,10 @@ class ShadedPicture {
 
     Shaded shade(InstructionSet isa, bool redo_exactly = true) {
         CameraTables tables(fast_, camera_, isa);
-        fill_tables(fast_, 1, tables);
         PrimaryJob job{fast_, camera_, tables, fallback_, true, {}};
         const PrimaryStage primary(isa);
         ShadingTables shading(fast_, camera_, tables, resolved(isa));
-        fill_tables(fast_, 1, shading);
+        shading.fill_all(1);
         ShadingStage stage(shading, redo_exactly);
         Image image(size_.width, size_.height);
         const auto macro = std::make_unique<MacroTile>();

@@ -45,7 +45,6 @@ TEST(PixelBounds, HoldThePixelThatASphereTouches) {
             const FastScene fast(scene, primitives, OctreeType::kUniform, 1);
             const CameraRays camera(scene.camera, kPicture, fast.frame());
             CameraTables tables(fast, camera, isa);
-            fill_tables(fast, 1, tables);
             const PixelBox& box = tables.boxes[0];
             const std::string where =
                 "seed " + std::to_string(kSeed) + ", round " + std::to_string(round);

@@ -54,8 +54,7 @@ class Shown {
           kernel_(scene, primitives_, std::nullopt),
           tables(fast_, camera_, spheres_, resolved(isa)),
           isa_(isa) {
-        fill_tables(fast_, 1, spheres_);
-        fill_tables(fast_, 1, tables);
+        tables.fill_all(1);
         pick_surface_kernel(resolved(isa), kernels);
         pick_light_kernels(resolved(isa), kernels);
         pick_finish_kernel(resolved(isa), kernels);

@@ -102,13 +102,12 @@ TEST_F(TriangleChunkTest, TablesDoNotDependOnWhenAndByHowManyTheyAreFilled) {
     CameraTables camera(fast_, rays, isa);
     ShadowTables shadow(fast_, isa);
     ShadingTables shading(fast_, rays, camera, isa);
-    fill_tables(fast_, 1, shading);
-    fill_tables(fast_, 1, camera);
+    shading.fill_all(1);
     for (const int threads : {1, 2, 7}) {
         CameraTables camera_later(fast_, rays, isa, threads);
         ShadowTables shadow_later(fast_, isa, threads);
         ShadingTables shading_later(fast_, rays, camera_later, isa);
-        fill_tables(fast_, threads, camera_later, shading_later);
+        shading_later.fill_all(threads);
         ASSERT_EQ(camera.spheres.size(), camera_later.spheres.size());
         for (std::size_t i = 0; i < camera.spheres.size(); ++i) {
             EXPECT_EQ(camera.spheres[i].radius, camera_later.spheres[i].radius);

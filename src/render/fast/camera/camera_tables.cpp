@@ -63,13 +63,19 @@ CameraSphere make_ball(const BallMap& map, const Vector3& from, double direction
 
 CameraTables::CameraTables(const FastScene& scene, const CameraRays& camera, InstructionSet isa,
                            int threads)
-    : scene_(scene), camera_(camera), isa_(isa), threads_(threads) {
+    : scene_(scene), camera_(camera) {
     spheres.resize(scene.slot_end() - scene.triangle_end());
     balls.resize(scene.slot_end() - scene.sphere_end());
     boxes.resize(spheres.size());
+    for_each_quadric_part(scene, threads, [&](QuadricSpan some) { take(some); });
+    for_each_part(threads, spheres.size(), [&](std::size_t begin, std::size_t end) {
+        make_sphere_boxes(isa, camera, spheres.data() + begin, end - begin, boxes.data() + begin);
+        for (std::size_t i = begin; i < end; ++i)
+            if (spheres[i].hidden) boxes[i] = kNoPixels;
+    });
 }
 
-void CameraTables::take_quadrics(QuadricSpan quadrics) {
+void CameraTables::take(QuadricSpan quadrics) {
     const Point3 eye = scene_.scene().camera.position;
     const double scale = scene_.frame().scale;
     const double direction = CameraExtent(camera_).direction;
@@ -101,14 +107,6 @@ void CameraTables::take_quadrics(QuadricSpan quadrics) {
         out.material = object.material;
         out.solid = object.solid;
     }
-}
-
-void CameraTables::finish() {
-    for_each_part(threads_, spheres.size(), [&](std::size_t begin, std::size_t end) {
-        make_sphere_boxes(isa_, camera_, spheres.data() + begin, end - begin, boxes.data() + begin);
-        for (std::size_t i = begin; i < end; ++i)
-            if (spheres[i].hidden) boxes[i] = kNoPixels;
-    });
 }
 
 }  // namespace nuvo

@@ -92,14 +92,9 @@ void make_sphere_boxes(InstructionSet isa, const CameraRays& camera, const Camer
 /// Of the spheres and ellipsoids; made anew for each picture.
 class CameraTables {
   public:
-    /// Keeps references. fill_tables() fills them.
+    /// Keeps references.
     CameraTables(const FastScene& scene, const CameraRays& camera, InstructionSet isa,
                  int threads = 1);
-
-    /// For fill_tables(); by several threads at a time.
-    void take(const TriangleChunk&) {}
-    void take_quadrics(QuadricSpan quadrics);
-    void finish();
 
     SeenQuadric seen(Slot slot) const {
         if (slot >= scene_.sphere_end()) {
@@ -118,10 +113,10 @@ class CameraTables {
     BigVector<PixelBox> boxes;        ///< by slot - triangle_end()
 
   private:
+    void take(QuadricSpan quadrics);
+
     const FastScene& scene_;
     const CameraRays& camera_;
-    InstructionSet isa_;
-    int threads_;
 };
 
 }  // namespace nuvo

@@ -32,7 +32,6 @@ RayCounts count_rays(const FastScene& scene, InstructionSet isa, Resolution reso
                      Progress* progress) {
     const CameraRays camera(scene.scene().camera, resolution, scene.frame());
     CameraTables tables(scene, camera, isa);
-    fill_tables(scene, 1, tables);
     const ExactFallback fallback(scene, camera);
     const auto job =
         std::make_unique<PrimaryJob>(PrimaryJob{scene, camera, tables, fallback, true, {}});

@@ -92,9 +92,6 @@ struct Frame::Tables {
         camera.emplace(scene, rays, options.isa, options.threads);
         surfaces.emplace(scene, rays, *camera, options.isa,
                          std::exchange(kept.shading, std::nullopt));
-        for_each_quadric_part(scene, options.threads,
-                              [&](QuadricSpan some) { camera->take_quadrics(some); });
-        camera->finish();
         if (two_passes) {
             hits.seen.emplace(scene);
             // Kernels read slot 0 in lanes that show no triangle.
@@ -105,8 +102,7 @@ struct Frame::Tables {
                 shadow = &kept.keep_shadows(scene.scene().camera, resolution, [&] {
                     return ShadowTables(scene, options.isa, options.threads);
                 });
-            if (!surfaces->triangles.known.has_all())
-                fill_tables(scene, options.threads, *surfaces);
+            surfaces->fill_all(options.threads);
         }
         shading.emplace(*surfaces, options.redo_exactly);
     }

@@ -8,8 +8,8 @@
 #include "fast/scene/fast_scene.h"
 
 // Corners lie behind an object, its mesh and the mesh's lists: several times as far away as the
-// numbers that are made of them. So they are fetched once for all tables, by chunks that stay in
-// the nearest cache, and prefetched.
+// numbers that are made of them. So they are prefetched, and fetched by chunks that stay in the
+// nearest cache while the tables of all lights are made of them.
 
 namespace nuvo {
 
@@ -83,15 +83,5 @@ void for_each_chunk(const FastScene& scene, const BigVector<Slot>& slots, Slot c
 /// when the next table asks.
 void for_each_quadric_part(const FastScene& scene, int threads,
                            const std::function<void(QuadricSpan)>& work);
-
-/// Calls take(chunk) of each table for all triangles, take_quadrics(some) for all quadrics, and
-/// finish().
-template <typename... Tables>
-void fill_tables(const FastScene& scene, int threads, Tables&... tables) {
-    for_each_chunk(scene, threads, [&](const TriangleChunk& chunk) { (tables.take(chunk), ...); });
-    for_each_quadric_part(scene, threads,
-                          [&](QuadricSpan quadrics) { (tables.take_quadrics(quadrics), ...); });
-    (tables.finish(), ...);
-}
 
 }  // namespace nuvo

@@ -375,6 +375,12 @@ void ShadingTables::fill(const TriangleSet& some, int threads) {
     triangles.known.add(slots);
 }
 
+void ShadingTables::fill_all(int threads) {
+    if (triangles.known.has_all()) return;
+    for_each_chunk(scene, threads, [&](const TriangleChunk& chunk) { take(chunk); });
+    triangles.known.add_all();
+}
+
 std::size_t ShadingTriangles::memory_bytes() const {
     std::size_t bytes = known.memory_bytes() + vector_bytes(words) + vector_bytes(normals) +
                         vector_bytes(smooth) + vector_bytes(smooth_offsets);

@@ -152,8 +152,8 @@ struct ShadingBounds {
 };
 
 struct ShadingTables {
-    /// Keeps references. What it holds for each triangle fill() or fill_tables() fills in, as far
-    /// as `kept`, made for the same scene and lights, does not serve.
+    /// Keeps references. What it holds for each triangle fill() or fill_all() fills in, as far as
+    /// `kept`, made for the same scene and lights, does not serve.
     ShadingTables(const FastScene& scene, const CameraRays& camera, const CameraTables& quadrics,
                   InstructionSet isa, std::optional<ShadingTriangles> kept = std::nullopt);
 
@@ -163,10 +163,11 @@ struct ShadingTables {
     /// What is not known yet of some triangles.
     void fill(const TriangleSet& some, int threads);
 
-    /// For fill_tables(); by several threads at a time. (shading_cosines.cpp)
+    /// Of all.
+    void fill_all(int threads);
+
+    /// Fills in those of a chunk; by several threads at a time. (shading_cosines.cpp)
     void take(const TriangleChunk& chunk);
-    void take_quadrics(QuadricSpan) {}
-    void finish() { triangles.known.add_all(); }
 
     std::size_t memory_bytes() const;
 
