@@ -13,7 +13,6 @@
 #include "fast/frame/serial_pixels.h"
 #include "fast/light/wanted_depths.h"
 #include "fast/primary/primary.h"
-#include "fast/scene/triangle_chunk.h"
 #include "fast/shading/shading.h"
 #include "fast/shadow/shadow.h"
 #include "fast/tile/tile_order.h"

@@ -142,8 +142,7 @@ class TriangleFiller {
     }
     // n.(L - a), NaN where the plane is off by more than plane_error() allows.
     HWY_INLINE Wide within_plane_error(const Wide& distance) const {
-        constexpr double kHalfRoundoff = 0x1p-25;
-        const Wide most = abs(distance) * Wide(kHalfRoundoff) + Wide(plane_error_);
+        const Wide most = abs(distance) * Wide(0.5 * kFloatRoundoff) + Wide(plane_error_);
         return select(plane_off_ <= most, distance, Wide(kNotKnown));
     }
     static HWY_INLINE void spread(const Wide& v, float* to, std::size_t stride, std::size_t count) {

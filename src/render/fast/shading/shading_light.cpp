@@ -91,8 +91,8 @@ class LightSampler {
     };
 
     // gain n.l of flat triangles. Directional: the table's rounding. Else the table's n.(L - a)
-    // over |L - P|: also half a one of its own, that of the product and those of the inverse
-    // length.
+    // over |L - P|: also half a rounding for the triangle's plane, that of the product and those of
+    // the inverse length.
     HWY_INLINE Lit flat(int first, const Toward& toward) const {
         const Ints slot = Ints::load(tile_.slot + first);
         const auto known = (slot > Ints(-1)) & (slot < Ints(tables_.scene.triangle_end()));

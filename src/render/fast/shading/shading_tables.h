@@ -28,7 +28,9 @@ inline constexpr double kTriangleNormalError = 0x1p-34;
 /// float's roundoff of the light's distance from the plane allows more; in the local frame.
 /// [numerics: light on flat triangles]
 inline double plane_error(const LocalFrame& frame) {
-    return 0x1p-29 * std::fmax(4 * frame.dense, 0x1p-12);
+    constexpr double kShare = 0x1p-29;  // of the dense place, or of what counts as one
+    constexpr double kLeastPlace = 0x1p-12;
+    return kShare * std::fmax(4 * frame.dense, kLeastPlace);
 }
 /// Outweighs second-order terms and the roundings of a bound's own computation.
 inline constexpr float kSlack = 1.02F;
