@@ -26,7 +26,8 @@ HWY_AFTER_NAMESPACE();
 #include "fast/simd/dispatch.h"
 
 // Triangles that are culled before their corners are fetched, against the same question in 60
-// digits: each turns an invisible back to the eye, or lies beside all rays of the macro tile.
+// digits: each turns an invisible back to the eye, lies beside all rays of the macro tile, or
+// between the middles of its pixels.
 namespace nuvo::testing {
 namespace {
 
@@ -34,11 +35,12 @@ constexpr unsigned kSeed = 20261158;
 constexpr int kTriangles = 48;
 
 /// What a triangle is made for.
-enum Kind { kAnywhere, kEdgeOn, kBesideTheTile, kTiny, kKinds };
+enum Kind { kAnywhere, kEdgeOn, kBesideTheTile, kTiny, kBetweenPixels, kKinds };
 
 struct Found {
     int backs = 0;
     int beside = 0;
+    int between = 0;
     int kept_backs = 0;  // of those that might have been culled
     int kept = 0;
 };
@@ -94,7 +96,30 @@ struct CulledScene {
         return false;
     }
 
+    /// Before the eye, where the rays of none of the tile's columns or rows of pixels pass.
+    bool lies_between(const Triangle& t) const {
+        return has_no_pixel(t, camera->right, middle_x()) ||
+               has_no_pixel(t, camera->down, middle_y());
+    }
+
   private:
+    bool has_no_pixel(const Triangle& t, const Vector3& axis, double middle) const {
+        const RealVector along(axis);
+        Real low = 2 * kMacroSide;
+        Real high = -low;
+        for (const Point3& p : {t.a, t.b, t.c}) {
+            const RealVector w = from_eye(p);
+            const Real depth = dot(RealVector(camera->forward), w);
+            if (depth <= 0) return false;
+            const Real pixel = dot(along, w) / dot(along, along) / depth - Real(middle) +
+                               Real(0.5 * (kMacroSide - 1));
+            low = std::min(low, pixel);
+            high = std::max(high, pixel);
+        }
+        for (int pixel = 0; pixel < kMacroSide; ++pixel)
+            if (low <= Real(pixel) && Real(pixel) <= high) return false;
+        return true;
+    }
     bool all_beyond(const Triangle& t, const Vector3& axis, double middle, double half,
                     double sign) const {
         const RealVector along(axis);
@@ -111,7 +136,8 @@ struct CulledScene {
     Triangle triangle(std::mt19937_64& random, Kind kind, const CameraRays& rays,
                       const Point3& eye) const {
         const auto toward = [&](double x, double y) {
-            return eye + normalized(rays.direction(x, y)) * std::exp2(uniform(random, -6, 3));
+            const double nearest = kind == kBetweenPixels ? -14 : -6;
+            return eye + normalized(rays.direction(x, y)) * std::exp2(uniform(random, nearest, 3));
         };
         const double width = kind == kAnywhere ? 300 : 40;
         const auto point = [&] {
@@ -139,6 +165,19 @@ struct CulledScene {
             t.b = near_side();
             t.c = near_side();
             t.a = near_side();
+        } else if (kind == kBetweenPixels) {  // corners about the middle of a pixel
+            const double x =
+                middle_x() - 0.5 * (kMacroSide - 1) + static_cast<int>(random() % kMacroSide);
+            const double y =
+                middle_y() - 0.5 * (kMacroSide - 1) + static_cast<int>(random() % kMacroSide);
+            const double around = std::exp2(uniform(random, -12, 0));
+            const auto near_pixel = [&] {
+                const double at_x = x + uniform(random, -0.25, 1) * around;
+                return toward(at_x, y + uniform(random, -0.25, 1) * around);
+            };
+            t.a = near_pixel();
+            t.b = near_pixel();
+            t.c = near_pixel();
         }
         return t;
     }
@@ -166,12 +205,17 @@ TEST(CullingBounds, NothingIsCulledThatMayShow) {
                         ++(back ? found[kind].kept_backs : found[kind].kept);
                         continue;
                     }
-                    ASSERT_TRUE(back || culled.lies_beside(t))
+                    const bool beside = culled.lies_beside(t);
+                    ASSERT_TRUE(back || beside || culled.lies_between(t))
                         << "seed " << kSeed << ", round " << round << ", slot " << slots[i];
-                    ++(back ? found[kind].backs : found[kind].beside);
+                    ++(back     ? found[kind].backs
+                       : beside ? found[kind].beside
+                                : found[kind].between);
                 }
             }
         }
+        for (const Kind kind : {kTiny, kBetweenPixels})
+            EXPECT_GT(found[kind].between, 250) << "kind " << kind;
         for (const Kind kind : {kAnywhere, kTiny, kBesideTheTile}) {
             EXPECT_GT(found[kind].backs, 400) << "kind " << kind;
             EXPECT_GT(found[kind].beside, 400) << "kind " << kind;

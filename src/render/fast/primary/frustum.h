@@ -20,9 +20,9 @@
 #include "nuvo/octree/compact.h"
 
 // The octree from near to far as a macro tile sees it: where in the tile a voxel can be seen, and
-// how near its contents may be, for all eight octants of a node at once; voxels that only cover
-// pixels which show something nearer are left out (Greene, Kass and Miller 1993, "Hierarchical
-// Z-buffer visibility").
+// how near its contents may be, for all eight octants of a node at once. Voxels between the middles
+// of pixels are left out, and those that only cover pixels which show something nearer (Greene,
+// Kass and Miller 1993, "Hierarchical Z-buffer visibility").
 //
 // A point p at the depth z = p.forward from the eye is seen A / z pixels from the macro tile's
 // middle, A and z being affine in p. Over a box an affine function is its value in the middle, more
@@ -53,7 +53,6 @@ class Frustum {
 
     /// For points whose local coordinates are at most `reach`.
     Frustum(const CameraRays& camera, const MacroTile& tile, double reach) {
-        constexpr double kMiddle = 0.5 * (kMacroSide - 1);
         const Vector3& forward = camera.forward;
         depth_ = Affine(forward, forward, camera.origin, reach);
         const double middle[2] = {camera.center_x(tile.x) + kMiddle,
@@ -84,11 +83,6 @@ class Frustum {
             if (toward[axis] < 0) flip_ |= 1U << axis;
     }
 
-    /// Whether floats hold the view's numbers.
-    bool usable() const { return usable_; }
-    /// Four functions that are positive in the pyramid before the eye and up to about a pixel
-    /// around.
-    const Affine (&sides() const)[4] { return sides_; }
     /// Octant o ^ flip() for o = 0..7 is an order from near to far.
     unsigned flip() const { return flip_; }
 
@@ -127,15 +121,14 @@ class Frustum {
         OctantFloats first[2];
         OctantFloats last[2];
         const OctantFloats most(kMacroSide - 1);
-        const OctantFloats shift(0.5F * (kMacroSide - 1));
         for (int k = 0; k < 2; ++k) {
             const OctantFloats middle = across_[k].at(boxes.middle);
             const OctantFloats reach = across_[k].spread(boxes);
             const OctantFloats low_end = middle - reach;
             const OctantFloats high_end = middle + reach;
-            first[k] = min(low_end * by_near, low_end * by_far) + (shift - OctantFloats(kMargin));
-            last[k] = max(high_end * by_near, high_end * by_far) + (shift + OctantFloats(kMargin));
-            shown = shown & (anywhere | ((first[k] <= most) & (last[k] >= zero)));
+            first[k] = first_pixel(min(low_end * by_near, low_end * by_far), OctantFloats(kMargin));
+            last[k] = last_pixel(max(high_end * by_near, high_end * by_far), OctantFloats(kMargin));
+            shown = without(shown, without(no_pixel(first[k], last[k]), anywhere));
         }
         std::uint32_t octants = shown.bits();
         if ((octants & anywhere.bits()) != 0)
@@ -156,10 +149,66 @@ class Frustum {
         return octants;
     }
 
+    /// Which of 16 triangles may cover the middle of a pixel: at[i] are their corners, rounded to
+    /// nearest, `size` the largest |coordinate| on each axis.
+    HWY_INLINE RayMask may_cover(const Floats (&at)[3][3], const Floats (&size)[3]) const {
+        if (HWY_UNLIKELY(!usable_)) return RayMask::from_bits(0xffff);
+        constexpr float kInfinity = std::numeric_limits<float>::infinity();
+        Floats near(kInfinity);
+        Floats low[2] = {near, near};
+        Floats high[2] = {-near, -near};
+        for (const auto& corner : at) {
+            const Floats depth = depth_.at(corner);
+            const Floats inverse = Floats(1.0F) / depth;
+            near = min(near, depth);
+            for (int k = 0; k < 2; ++k) {
+                const Floats pixel = across_[k].at(corner) * inverse;
+                low[k] = min(low[k], pixel);
+                high[k] = max(high[k], pixel);
+            }
+        }
+        // What the errors of both affine functions add to a quotient where the depth may be half as
+        // large. [numerics: voxels seen by a macro tile]
+        const Floats depth_error = depth_.error(size);
+        const RayMask known = near > max(depth_error + depth_error, Floats(kLeastDepth));
+        const Floats twice_inverse = Floats(2.0F) / near;
+        RayMask missed = RayMask::from_bits(0);
+        for (int k = 0; k < 2; ++k) {
+            const Floats farthest = max(abs(low[k]), abs(high[k]));
+            const Floats slack = mul_add(mul_add(farthest, depth_error, across_[k].error(size)),
+                                         twice_inverse, Floats(kMargin));
+            missed = missed | no_pixel(first_pixel(low[k], slack), last_pixel(high[k], slack));
+        }
+        missed = missed & known;
+        if (HWY_UNLIKELY((~known).any()))
+            for (const Affine& side : sides_)
+                missed = missed | (max(side.at(at[0]), max(side.at(at[1]), side.at(at[2]))) <
+                                   -side.error(size));
+        return ~missed;
+    }
+
   private:
     // In pixels: far more than the rounding of a quotient that lies within the tile.
     static constexpr float kMargin = 0x1p-6F;
     static constexpr float kLeastDepth = 0x1p-90F;
+    // The tile's middle, from that of its first pixel.
+    static constexpr float kMiddle = 0.5F * (kMacroSide - 1);
+
+    // The first pixel whose middle is not surely before `at`, which counts from the tile's middle,
+    // and the last that is not surely behind it, both from the tile's first pixel on.
+    template <typename Numbers>
+    static HWY_INLINE Numbers first_pixel(const Numbers& at, const Numbers& slack) {
+        return -floor(slack - Numbers(kMiddle) - at);
+    }
+    template <typename Numbers>
+    static HWY_INLINE Numbers last_pixel(const Numbers& at, const Numbers& slack) {
+        return floor(at + (slack + Numbers(kMiddle)));
+    }
+    // Whether the tile surely has none of these; NaN says no.
+    template <typename Numbers>
+    static HWY_INLINE typename Numbers::Mask no_pixel(const Numbers& first, const Numbers& last) {
+        return (first > last) | (first > Numbers(kMacroSide - 1)) | (last < Numbers(0.0F));
+    }
 
     static Vector3 abs_of(const Vector3& v) {
         return {std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)};
@@ -168,7 +217,7 @@ class Frustum {
     Affine depth_;
     Affine across_[2];
     Affine sides_[4];
-    bool usable_;
+    bool usable_;  // whether floats hold the view's numbers
     unsigned flip_;
 };
 

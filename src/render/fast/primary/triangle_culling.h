@@ -16,9 +16,10 @@
 #include "fast/simd/lanes.h"
 #include "nuvo/math/error_bounds.h"
 
-// Most triangles of the leaves that a macro tile may show lie beside it or turn a back to the eye
-// that nobody sees. Floats of the local frame, which lie by slot, tell so of 16 at a time; so only
-// the others' corners are fetched, through object, mesh and indices.
+// Most triangles of the leaves that a macro tile may show lie beside it or between the middles of
+// its pixels, or turn a back to the eye that nobody sees. Floats of the local frame, which lie by
+// slot, tell so of 16 at a time; so only the others' corners are fetched, through object, mesh and
+// indices.
 
 HWY_BEFORE_NAMESPACE();
 namespace nuvo::HWY_NAMESPACE {
@@ -37,7 +38,6 @@ class TriangleCulling {
 
     /// Which of these triangles may show.
     HWY_INLINE RayMask keeps(const Slot* slots) const {
-        if (HWY_UNLIKELY(!frustum_.usable())) return RayMask::from_bits(0xffff);
         const BigVector<LocalTriangle>& triangles = scene_.triangles();
         Floats at[3][3];
         load_corners([&](std::size_t i) -> const LocalTriangle& { return triangles[slots[i]]; },
@@ -45,11 +45,7 @@ class TriangleCulling {
         Floats size[3];
         for (int axis = 0; axis < 3; ++axis)
             size[axis] = max(abs(at[0][axis]), max(abs(at[1][axis]), abs(at[2][axis])));
-        RayMask kept = RayMask::from_bits(0xffff);
-        for (const Affine& side : frustum_.sides()) {
-            const Floats highest = max(side.at(at[0]), max(side.at(at[1]), side.at(at[2])));
-            kept = without(kept, highest < -side.error(size));
-        }
+        const RayMask kept = frustum_.may_cover(at, size);
         const std::uint32_t front_only = scene_.front_only(slots);
         if (front_only == 0) return kept;
         return without(kept, RayMask::from_bits(front_only) & hidden(at, size));
