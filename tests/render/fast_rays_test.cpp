@@ -323,6 +323,35 @@ TEST(SingleRays, TakeTheFirstOfHundredsThatCoincide) {
     EXPECT_GT(expect_equal(scene, rays_for(scene, 51, 40)), 8);
 }
 
+// Triangles in one plane, and others that a corner takes out of it by a few roundings: the nearer
+// one is now the earlier, now the later of the document.
+TEST(SingleRays, TellTrianglesInOnePlaneFromNearlyCoincidentOnes) {
+    constexpr unsigned kSeed = 53;
+    std::mt19937_64 random(kSeed);
+    Scene scene;
+    for (int i = 0; i < 60; ++i) {
+        TriangleMesh mesh;
+        for (int k = 0; k < 3; ++k) {
+            // On a grid, so that a third coordinate from both of them is exact.
+            const double x = static_cast<double>(random() % 4096) / 1024 - 2;
+            const double y = static_cast<double>(random() % 4096) / 1024 - 2;
+            const bool moved = i % 2 != 0 && k == i / 2 % 3;
+            const double roundings = moved ? std::nearbyint(uniform(random, -3, 3)) : 0;
+            mesh.positions.push_back({x, y, 1 + x / 4 - y / 2 + roundings * 0x1p-51});
+        }
+        mesh.triangles = {{0, 1, 2}};
+        scene.objects.push_back({mesh});
+    }
+    finish(scene);
+    std::vector<Ray> rays;
+    for (int i = 0; i < 2000; ++i) {
+        const Point3 from =
+            uniform_point(random, 2) + Vector3{0, 0, random() % 2 == 0 ? 6.0 : -6.0};
+        rays.push_back({from, uniform_point(random, 1.5) - from});
+    }
+    EXPECT_GT(expect_equal(scene, rays), 1000);
+}
+
 TEST(SingleRays, MissWhereThereIsNothing) {
     Scene scene;
     finish(scene);

@@ -111,11 +111,24 @@ std::optional<SingleRays::Nearest> SingleRays::nearest_of(const Ray& ray,
         const bool hit = i < triangles && (roots.hit >> i & 1) != 0;
         if (hit && roots.t[i] * (1 - root_tolerance()) > end) continue;
         if (i < triangles && (roots.missed >> i & 1) != 0) continue;
+        // Of those in one plane, met at the same t, the earliest slot comes first.
+        if (hit && sure && coplanar(sure->slot, slots[i])) continue;
         if (hit) sure = Nearest{slots[i], roots.t[i]};
         slots[left++] = slots[i];
     }
     if (left == 0 || (left == 1 && sure)) return sure;
     return exactly_nearest_of(ray, slots.first(left));
+}
+
+bool SingleRays::coplanar(Slot first, Slot second) const {
+    return coplanar_.of({first, second}, [&] {
+        const Triangle plane = scene_.triangle(first);
+        const Triangle other = scene_.triangle(second);
+        const auto in_plane = [&](const Point3& corner) {
+            return counts_.sides.side(plane, corner, counts_.exact) == 0;
+        };
+        return in_plane(other.a) && in_plane(other.b) && in_plane(other.c);
+    });
 }
 
 std::optional<SingleRays::Nearest> SingleRays::exactly_nearest_of(

@@ -11,6 +11,7 @@
 #include "fast/rays/pair_roots.h"
 #include "fast/rays/ray_state.h"
 #include "fast/rays/wide_octree.h"
+#include "fast/tile/pair_cache.h"
 #include "fast/tile/serial_tree.h"
 #include "nuvo/render/fast.h"
 
@@ -78,6 +79,8 @@ class SingleRays {
     /// these are sure.
     std::optional<Nearest> nearest_of(const Ray& ray, std::span<Slot> slots) const;
     std::optional<Nearest> exactly_nearest_of(const Ray& ray, std::span<const Slot> slots) const;
+    /// Whether both triangles lie in one plane.
+    bool coplanar(Slot first, Slot second) const;
     // As a function of its own g++ takes it for one without effects, and leaves it out.
     [[gnu::always_inline]] void prefetch(std::span<const Slot> found) const;
     void set_triangle(PairRoots& roots, std::size_t i, const Ray& ray,
@@ -93,6 +96,8 @@ class SingleRays {
     PairRootStage roots_;
     float bounds_scale_;
     std::size_t (*walk_)(const SingleRays&, std::span<const Ray>, bool, RayAnswer*);
+    mutable PairCache<bool> coplanar_;
+    mutable StageCounts counts_;       // of coplanar()
     mutable std::uint64_t rays_ = 0;   // answered
     mutable std::uint64_t tests_ = 0;  // exact ones
 };
