@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <random>
+#include <sstream>
 
 #include "fast_cases.h"
 #include "nuvo/scene/x3d.h"
@@ -30,6 +31,33 @@ TEST(FastFaults, ALampBesideAThinEllipsoidCastsItsShadow) {
              placed("translation='0 -5 0'", lit_shape("<Box size='10 0.1 10'/>")) +
              placed("translation='0 0 -5'", lit_shape("<Box size='10 10 0.1'/>"))),
         {{160, 90}});
+}
+
+// Normals of a plane through the eye, whose squares are beyond floats: their length counted as 0
+// and as known where a root is taken instead of an estimate.
+TEST(FastFaults, SmoothTrianglesThatAllButHoldTheEyeAreLit) {
+    for (const double third : {1e-3, 3e-18, 3e-19, 1e-25, 1e-36, 1e-40, 0.0}) {
+        std::ostringstream corners;
+        corners << "-9 0 1 9 0 1 0 " << third << " -30";
+        expect_identical(
+            read("<Viewpoint position='0 .001 0'/><DirectionalLight direction='0 -1 0'/>" +
+                 lit_shape("<IndexedTriangleSet solid='false' index='0 1 2'>"
+                           "<Coordinate point='" +
+                           corners.str() + "'/></IndexedTriangleSet>")),
+            {{16, 16}, {1, 2}});
+    }
+    expect_identical(read("<Viewpoint position='0 0 0' orientation='1 0 0 3.141592653589793'/>"
+                          "<PointLight location='0 0 0'/>" +
+                          lit_shape("<IndexedTriangleSet index='0 1 2'><Coordinate point='0 "
+                                    "0.000999999999999442 -4.557 5 0.0010000000000005582 4.557 0 "
+                                    "0.0010000000000005582 4.557'/></IndexedTriangleSet>")),
+                     {{4, 4}, {1, 2}});
+    expect_identical(
+        read("<Viewpoint position='0 0 0' orientation='1 0 0 4.71238898038469' "
+             "fieldOfView='3.1415926535478342'/><DirectionalLight direction='0 0 0.4'/>" +
+             lit_shape("<IndexedTriangleSet index='0 1 2'><Coordinate point='-2 0 10 0 0 "
+                       "10 0 -2 10'/></IndexedTriangleSet>")),
+        {{200, 120}});
 }
 
 /// An ellipsoid before a floor and a wall, and a lamp near it, in it or behind.

@@ -26,6 +26,7 @@ HWY_AFTER_NAMESPACE();
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "fast/simd/dispatch.h"
@@ -109,6 +110,15 @@ TEST(VectorMath, ArcsStayWithinTheirBound) {
         RecordProperty("units" + std::to_string(static_cast<int>(isa)),
                        std::to_string(most / kUnit));
         EXPECT_LE(most, 8 * kUnit) << most / kUnit << " units";
+    }
+}
+
+TEST(VectorMath, RootsOfNothingAndOfInfinityAreUnknown) {
+    for (const InstructionSet isa : supported_instruction_sets()) {
+        float x[kLanes] = {0, std::numeric_limits<float>::infinity()};
+        float y[kLanes];
+        NUVO_FOR_ISA(isa, inverse_roots)(x, y);
+        for (const float root : y) EXPECT_TRUE(std::isnan(root)) << static_cast<int>(isa);
     }
 }
 

@@ -17,10 +17,11 @@
 HWY_BEFORE_NAMESPACE();
 namespace nuvo::HWY_NAMESPACE {
 
-/// 1 / sqrt(v) within kInverseSqrtError, relatively, of normal floats; of 0 infinite or NaN.
+/// 1 / sqrt(v) within kInverseSqrtError, relatively, of normal floats; of 0 and of infinity NaN, so
+/// that nothing counts as known by a sum of squares beyond floats.
 /// AVX-512's estimate e is within 2^-14: one Newton step leaves 1.5 * 2^-28, and the residual
 /// 1 - v e e, whose two roundings count by half, and the last sum 2 u. Elsewhere: a root and a
-/// quotient, each correctly rounded.
+/// quotient by v, each correctly rounded.
 HWY_INLINE Floats inverse_sqrt(const Floats& v) {
 #if HWY_TARGET == HWY_AVX3
     Floats out;
@@ -32,7 +33,7 @@ HWY_INLINE Floats inverse_sqrt(const Floats& v) {
     }
     return out;
 #else
-    return Floats(1.0F) / sqrt(v);
+    return sqrt(v) / v;
 #endif
 }
 
