@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <new>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -43,10 +44,11 @@ struct BigAllocator {
 
     T* allocate(std::size_t n) { return static_cast<T*>(allocate_block(n * sizeof(T))); }
     void deallocate(T* at, std::size_t n) { free_block(at, n * sizeof(T)); }
-    /// No value given: none written.
+    /// No value given: none written, not even that of a member's initializer. Storage from
+    /// allocate() holds objects of such types by itself (C++20, implicit-lifetime types).
     template <typename U>
     void construct(U* at) {
-        ::new (static_cast<void*>(at)) U;
+        if constexpr (!std::is_trivially_copyable_v<U>) ::new (static_cast<void*>(at)) U;
     }
     template <typename U, typename... Arguments>
     void construct(U* at, Arguments&&... arguments) {
@@ -55,7 +57,7 @@ struct BigAllocator {
     friend bool operator==(const BigAllocator&, const BigAllocator&) { return true; }
 };
 
-/// T should be trivial; resize() leaves its members unset.
+/// resize() leaves new elements unset if T is trivially copyable.
 template <typename T>
 using BigVector = std::vector<T, BigAllocator<T>>;
 
