@@ -110,9 +110,8 @@ std::optional<int> sure_order(const ExactRay& ray, const Triangle& a, const Tria
 std::optional<int> quick_order(const ExactRay& ray, const Triangle& a, const Triangle& b,
                                StageCounts& counts) {
     if (const std::optional<int> order = sure_order<long double>(ray, a, b)) return order;
-    for (const Point3& corner : {b.a, b.b, b.c})
-        if (counts.sides.side(a, corner, counts.exact) != 0) return std::nullopt;
-    return 0;
+    if (coplanar(a, b, counts)) return 0;
+    return std::nullopt;
 }
 
 }  // namespace

@@ -43,6 +43,13 @@ std::optional<WayStart> across_plane(const WayStart& start, const Triangle& t, i
 
 }  // namespace
 
+bool coplanar(const Triangle& a, const Triangle& b, StageCounts& counts) {
+    const auto in_plane = [&](const Point3& corner) {
+        return counts.sides.side(a, corner, counts.exact) == 0;
+    };
+    return in_plane(b.a) && in_plane(b.b) && in_plane(b.c);
+}
+
 bool hides(const Triangle& front, const Point3& eye, const Triangle& other, bool wins_ties,
            StageCounts& counts) {
     const int needed = wins_ties ? 0 : 1;

@@ -388,6 +388,9 @@ struct LightPlace {
     Vector3 at;    ///< a point; endless: the direction to the light
     bool endless;  ///< infinitely far away
 };
+/// Whether the corners of `b` lie in the plane of `a`: every ray that meets both does so at one t.
+bool coplanar(const Triangle& a, const Triangle& b, StageCounts& counts);
+
 /// `other` blocks no way from a rounded point of `lit` to the light: it leaves all of `lit` on the
 /// light's side. False: not known.
 bool leaves_in_light(const Triangle& other, const Triangle& lit, const LightPlace& light,

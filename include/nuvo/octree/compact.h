@@ -42,7 +42,8 @@ enum class CutRule : std::uint8_t { kSpatial, kSweep };
 /// a node side by side in octant order. A voxel is known on the way down only: `bounds` cut by the
 /// planes of its ancestors. An item is listed in every leaf whose closed voxel it touches.
 struct CompactOctree {
-    static constexpr int kMaxDepth = 48;  ///< levels, the root's included
+    static constexpr int kMaxDepth = 48;                    ///< levels, the root's included
+    static constexpr int kMostWaiting = 7 * kMaxDepth + 1;  ///< voxels on the stack of a walk
 
     CutRule rule = CutRule::kSpatial;  ///< by which it was cut
     Bounds3T<float> bounds;

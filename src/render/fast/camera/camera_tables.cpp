@@ -1,15 +1,12 @@
 #include "fast/camera/camera_tables.h"
 
 #include <cmath>
-#include <limits>
 
 #include "nuvo/math/error_bounds.h"
 #include "nuvo/math/parallel.h"
 
 namespace nuvo {
 namespace {
-
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 // Of the float stages that use it.
 float bound(double value) { return rounded_up(value + kFloatUnderflow); }
@@ -19,18 +16,12 @@ float bound(double value) { return rounded_up(value + kFloatUnderflow); }
 CameraSphere make_sphere(const Vector3& from, double r, double error, double cross_error) {
     const double ff = dot(from, from);
     const double power = ff - r * r;
-    const double gap = std::sqrt(ff) - r;
     CameraSphere out{};
     for (int axis = 0; axis < 3; ++axis) out.from[axis] = from[axis];
     out.exact_radius = r;
     out.radius = static_cast<float>(r);
     out.inverse_power = static_cast<float>(1 / power);
     out.power_error = bound(2 * error / std::fabs(power) + roundings(4));
-    out.nearest = gap > 0 && power > error
-                      ? bound(1 / (gap * (1 - gamma(32)) - gamma(16) * std::sqrt(ff)))
-                      : kInfinity;
-    if (!(out.nearest > 0)) out.nearest = kInfinity;
-    out.distance = bound(std::sqrt(ff));
     out.cross_error = bound(cross_error);
     out.exactly = !(std::fabs(power) > 4 * error && std::isfinite(out.inverse_power) &&
                     std::isnormal(out.radius) && std::isfinite(out.cross_error));
@@ -67,7 +58,9 @@ CameraTables::CameraTables(const FastScene& scene, const CameraRays& camera, Ins
     spheres.resize(scene.slot_end() - scene.triangle_end());
     balls.resize(scene.slot_end() - scene.sphere_end());
     boxes.resize(spheres.size());
-    for_each_quadric_part(scene, threads, [&](QuadricSpan some) { take(some); });
+    for_each_part(threads, spheres.size(), [&](std::size_t begin, std::size_t end) {
+        take(scene.quadrics().subspan(begin, end - begin));
+    });
     for_each_part(threads, spheres.size(), [&](std::size_t begin, std::size_t end) {
         make_sphere_boxes(isa, camera, spheres.data() + begin, end - begin, boxes.data() + begin);
         for (std::size_t i = begin; i < end; ++i)

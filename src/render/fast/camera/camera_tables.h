@@ -52,14 +52,12 @@ inline constexpr int kCameraRoundings = 12;
 /// A sphere, the sphere around an ellipsoid, or an ellipsoid's ball, where that is mapped to, seen
 /// from the camera.
 struct alignas(64) CameraSphere {
-    double from[3];       ///< f: from the centre to the camera, local
-    double exact_radius;  ///< r in double
-    float radius;         ///< r
-    float inverse_power;  ///< 1 / (f.f - r^2); its sign tells which root is hit
-    float power_error;    ///< relative, of inverse_power
-    float nearest;        ///< bounds 1 / (least distance from the camera) from above; inf: inside
-    float distance;       ///< |f|, rounded up
-    float cross_error;    ///< bounds the error of f x d in double on each axis, over the picture
+    double from[3];          ///< f: from the centre to the camera, local
+    double exact_radius;     ///< r in double
+    float radius;            ///< r
+    float inverse_power;     ///< 1 / (f.f - r^2); its sign tells which root is hit
+    float power_error;       ///< relative, of inverse_power
+    float cross_error;       ///< bounds the error of f x d in double on each axis, over the picture
     std::uint32_t material;  ///< index into Scene::materials
     bool solid;
     bool hidden;   ///< the camera is surely inside, where a back that nobody sees is turned to it

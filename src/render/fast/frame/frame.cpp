@@ -70,12 +70,9 @@ std::uint64_t pixels_of(TilePlace place, Resolution size) {
 struct Frame::Hits {
     BigVector<MacroTile> tiles;         // in the order of Tables::tiles
     BigVector<MacroQuadrics> quadrics;  // the same; empty: the scene has none
-    std::optional<TriangleSet> seen;
+    TriangleSet seen;
 
     MacroQuadrics* quadrics_of(std::size_t i) { return quadrics.empty() ? nullptr : &quadrics[i]; }
-    const MacroQuadrics* quadrics_of(std::size_t i) const {
-        return quadrics.empty() ? nullptr : &quadrics[i];
-    }
     std::size_t memory_bytes() const {
         return tiles.size() * sizeof(MacroTile) + quadrics.size() * sizeof(MacroQuadrics);
     }
@@ -87,34 +84,31 @@ struct Frame::Tables {
         : rays(scene.scene().camera, resolution, scene.frame()),
           tiles(tiles_in_order(resolution, kMacroSide)),
           two_passes(listing == ShadowListing::kMeasured ? shadows_pay(scene, resolution)
-                                                         : listing != ShadowListing::kAll) {
-        camera.emplace(scene, rays, options.isa, options.threads);
-        surfaces.emplace(scene, rays, *camera, options.isa,
-                         std::exchange(kept.shading, std::nullopt));
+                                                         : listing != ShadowListing::kAll),
+          camera(scene, rays, options.isa, options.threads),
+          surfaces(scene, rays, camera, options.isa, std::exchange(kept.shading, std::nullopt)) {
         if (two_passes) {
-            hits.seen.emplace(scene);
+            hits.seen = TriangleSet(scene);
             // Kernels read slot 0 in lanes that show no triangle.
-            hits.seen->add(std::array<Slot, 1>{0});
+            hits.seen.add(std::array<Slot, 1>{0});
         } else {
             shadow = kept.shadows();
             if (shadow == nullptr || !shadow->complete())
                 shadow = &kept.keep_shadows(scene.scene().camera, resolution, [&] {
                     return ShadowTables(scene, options.isa, options.threads);
                 });
-            surfaces->fill_all(options.threads);
+            surfaces.fill_all(options.threads);
         }
-        shading.emplace(*surfaces, options.redo_exactly);
     }
 
     CameraRays rays;
     std::vector<TilePlace> tiles;
     bool two_passes;
     std::atomic<bool> is_serial = false;  // what is left is for the serial tracer
-    std::optional<CameraTables> camera;
+    CameraTables camera;
+    ShadingTables surfaces;
     const ShadowTables* shadow = nullptr;
     bool new_points = false;  // its items were listed for another picture
-    std::optional<ShadingTables> surfaces;
-    std::optional<ShadingStage> shading;  // copied by each thread; the copies share its tables
     Hits hits;
 
   private:
@@ -142,9 +136,9 @@ class Frame::Worker {
           options_(options),
           clocked_(clocked),
           fallback_(scene_, tables.rays),
-          job_{scene_, tables.rays, *tables.camera, fallback_, options.redo_exactly, {}},
+          job_{scene_, tables.rays, tables.camera, fallback_, options.redo_exactly, {}},
           primary_(options.isa),
-          shading_(*tables.shading) {
+          shading_(tables.surfaces, options.redo_exactly) {
         std::swap(fallback_.stage_counts(), kept_.stages);
     }
 
@@ -286,7 +280,7 @@ Frame::Frame(SerialTree& serial, const FastOptions& options, Resolution resoluti
     if (times != nullptr) clock.add_to(times->tables);
 }
 
-Frame::~Frame() { kept_.shading.emplace(std::move(tables_->surfaces->triangles)); }
+Frame::~Frame() { kept_.shading.emplace(std::move(tables_->surfaces.triangles)); }
 
 // Tables are for rays from one point.
 bool Frame::can_show(const FastScene& scene) {
@@ -296,7 +290,7 @@ bool Frame::can_show(const FastScene& scene) {
 }
 
 std::size_t Frame::memory_bytes() const {
-    return tables_->camera->memory_bytes() + tables_->shading->tables().memory_bytes() +
+    return tables_->camera.memory_bytes() + tables_->surfaces.memory_bytes() +
            tables_->hits.memory_bytes() + (tables_->shadow ? tables_->shadow->memory_bytes() : 0);
 }
 
@@ -318,14 +312,14 @@ void Frame::find_hits() {
     if (scene_.slot_end() != scene_.triangle_end()) hits.quadrics.resize(tiles.size());
     for_each_tile([&](Worker& worker, std::size_t i) {
         worker.find(tiles[i], hits.tiles[i], hits.quadrics_of(i));
-        if (!tables_->is_serial) hits.seen->add(hits.tiles[i].slot);
+        if (!tables_->is_serial) hits.seen.add(hits.tiles[i].slot);
         add(options_.progress, pixels_of(tiles[i], tables_->rays.resolution));
     });
 }
 
 void Frame::make_tables_of_hits() {
-    const TriangleSet& seen = *tables_->hits.seen;
-    tables_->surfaces->fill(seen, options_.threads);
+    const TriangleSet& seen = tables_->hits.seen;
+    tables_->surfaces.fill(seen, options_.threads);
     const Camera& camera = scene_.scene().camera;
     const Resolution size = tables_->rays.resolution;
     tables_->shadow = kept_.shadows();
@@ -359,7 +353,7 @@ std::vector<char> Frame::listed_lights() {
     constexpr std::size_t kMostLit = 8;   // of the points seen
     const std::size_t lights = scene_.scene().lights.size();
     if (listing_ != ShadowListing::kMeasured ||
-        tables_->hits.seen->size() * kMostSeen <= scene_.slot_end())
+        tables_->hits.seen.size() * kMostSeen <= scene_.slot_end())
         return std::vector<char>(lights, 1);
     std::vector<std::atomic<std::size_t>> seen(lights);
     std::vector<std::atomic<std::size_t>> lit(lights);

@@ -63,7 +63,6 @@ class LightBufferMaker {
     // What points may be off, in the size of the middle item, and in that of points.
     static constexpr double kErrorShare = 0x1p-4;
     static constexpr double kLeastError = 0x1p-20;
-    static constexpr double kMostError = kMostPointError;
 
     // What is known of an item on a face.
     struct Item {
@@ -82,9 +81,6 @@ class LightBufferMaker {
         std::uint8_t rows;
         std::uint8_t grid;
     };
-    struct Entry {
-        std::uint32_t word[LightGroup::kWords];
-    };
     // The same for 16 items.
     struct Cells {
         HWY_INLINE Cells(const LightGrid& grid, int face, const Ints (&low)[2],
@@ -102,6 +98,10 @@ class LightBufferMaker {
         alignas(64) std::int32_t first[16];
         alignas(64) std::int32_t columns[16];
         alignas(64) std::int32_t rows[16];
+    };
+
+    struct Entry {
+        std::uint32_t word[LightGroup::kWords];
     };
 
     /// Calls use(face, ranges, lanes) for the faces on which items [first, first + 16) are met.
@@ -179,9 +179,9 @@ class LightBufferMaker {
         for (int k = 0; k < 2; ++k) narrow(k, centers[k]);
         if (sizes.empty()) return extent_[0];
         const double size = out_.map.point_size;
-        ranges_.allow(
-            std::clamp(quantile(lengths, 0.5) * kErrorShare, kLeastError * size, kMostError * size),
-            items_.touch, out_.map);
+        ranges_.allow(std::clamp(quantile(lengths, 0.5) * kErrorShare, kLeastError * size,
+                                 kMostPointError * size),
+                      items_.touch, out_.map);
         return quantile(sizes, 0.5);
     }
     void narrow(int k, std::vector<float>& centers) {

@@ -89,7 +89,7 @@ class PlaneRanges {
         out.stretch = static_cast<float>(stretch_);
         out.axis = k;
         out.sign = light.toward[k] > 0 ? 1.0F : -1.0F;
-        atoward_light_ = -out.sign;
+        depth_sign_ = -out.sign;
         see(scene.octree().bounds, light, out, extent);
         return true;
     }
@@ -120,8 +120,8 @@ class PlaneRanges {
             out.high[i] = high + margin;
         }
         Floats near =
-            min(c.at[0][axis_] * Floats(atoward_light_), c.at[1][axis_] * Floats(atoward_light_));
-        if (c.count == 3) near = min(near, c.at[2][axis_] * Floats(atoward_light_));
+            min(c.at[0][axis_] * Floats(depth_sign_), c.at[1][axis_] * Floats(depth_sign_));
+        if (c.count == 3) near = min(near, c.at[2][axis_] * Floats(depth_sign_));
         out.near = near - depth_margin_.of(size);
         return out;
     }
@@ -166,7 +166,7 @@ class PlaneRanges {
     int axis_ = 0;
     float toward_[3] = {};
     float weight_ = 0;
-    float atoward_light_ = 0;
+    float depth_sign_ = 0;
     double stretch_ = 0;
     double rounding_ = 0;  // of u and v in units of a coordinate
     SizedError margin_;    // of u and v

@@ -27,7 +27,7 @@ class PlanesMaker {
           toward_(wide(job.light.toward)),
           scale_(job.scene.frame().scale),
           weight_(job.light.weight),
-          size_(job.light.weight * job.reach + max_norm(job.light.toward)),
+          size_(job.light.weight * job.scene.reach() + max_norm(job.light.toward)),
           dense_(job.scene.frame().dense) {}
 
     HWY_INLINE void make(const TriangleBatch& batch, Slot first, std::size_t count) {

@@ -22,12 +22,10 @@ struct alignas(64) ShadowPlanes {
     float plane[4][4];  ///< n, w
 };
 
-/// The planes of triangles as `light` sees them. `reach` bounds the coordinates of the scene in the
-/// local frame.
+/// The planes of triangles as `light` sees them.
 struct ShadowPlanesJob {
     const FastScene& scene;
     const LightPoint& light;
-    double reach;
     ShadowPlanes* out;    ///< of place 0
     std::uint8_t* hides;  ///< by batch of 8: bit i says that triangle i may hide something
     const Light& exact_light;

@@ -76,7 +76,7 @@ class WantedWalk {
 
     /// Sets the bits of the slots that are listed in wanted leaves of the node.
     void run(const WantedNode& from, std::uint64_t* marks) {
-        WantedNode stack[7 * CompactOctree::kMaxDepth + 1];
+        WantedNode stack[CompactOctree::kMostWaiting];
         int waiting = 0;
         stack[waiting++] = from;
         while (waiting != 0) {

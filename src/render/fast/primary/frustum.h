@@ -6,8 +6,6 @@
 #define NUVO_RENDER_FAST_FRUSTUM_H_
 #endif
 
-#include <hwy/cache_control.h>
-
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -233,8 +231,8 @@ HWY_INLINE void walk_frustum(const CompactOctree& octree, const Frustum& frustum
         BlockRange range;
     };
     constexpr unsigned kLate = 8;
-    StackedVoxel voxels[kWalkStack];
-    Place places[kWalkStack];
+    StackedVoxel voxels[CompactOctree::kMostWaiting];
+    Place places[CompactOctree::kMostWaiting];
     const CompactNode* late[kLate] = {};
     unsigned next_late = 0;
     const CompactNode* const nodes = octree.nodes.data();
@@ -246,13 +244,13 @@ HWY_INLINE void walk_frustum(const CompactOctree& octree, const Frustum& frustum
         const CompactNode& node = nodes[at];
         if (node.is_leaf()) {
             const std::uint32_t* const first = items + node.first_item();
-            hwy::Prefetch(first);
-            if (node.item_count() != 0) hwy::Prefetch(first + node.item_count() - 1);
+            __builtin_prefetch(first);
+            if (node.item_count() != 0) __builtin_prefetch(first + node.item_count() - 1);
             const CompactNode*& place = late[next_late++ % kLate];
             if (place != nullptr) leaf(items + place->first_item(), place->item_count());
             place = &node;
         } else {
-            hwy::Prefetch(nodes + node.first_child());
+            __builtin_prefetch(nodes + node.first_child());
             Frustum::Seen seen;
             const std::uint32_t seen_octants =
                 frustum.sees(voxel.face, node.cut, voxel.face + 4, seen);

@@ -7,8 +7,6 @@
 #define HWY_TARGET_INCLUDE "fast/primary/primary.cpp"
 #include <hwy/foreach_target.h>
 
-#include <hwy/cache_control.h>
-
 #include "fast/camera/camera_triangle_lanes.h"
 #include "fast/camera/corner_fetch.h"
 #include "fast/camera/pixel_box_lanes.h"
@@ -292,7 +290,7 @@ class PrimaryTracer {
     }
 
     HWY_INLINE void add_quadric(std::uint32_t place) {
-        hwy::Prefetch(job_.tables.boxes.data() + place);
+        __builtin_prefetch(job_.tables.boxes.data() + place);
         quadrics_[quadric_count_++] = place;
         if (quadric_count_ == kBatch) choose_quadrics();
     }
@@ -304,7 +302,7 @@ class PrimaryTracer {
         const std::size_t chosen = choose(count);
         for (std::size_t c = 0; c < chosen; ++c) {
             const std::uint32_t place = quadrics_[chosen_[c]];
-            hwy::Prefetch(job_.tables.spheres.data() + place);
+            __builtin_prefetch(job_.tables.spheres.data() + place);
             for_each_tile(job_.tables.boxes[place], c, [&](int t, std::uint32_t blocks) HWY_ATTR {
                 WaitingSpheres& waiting = spheres_[t];
                 waiting.place[waiting.count] = place;

@@ -49,14 +49,10 @@ struct TileRays {
         const double x = rays.center_x(tile_x) + kHalfTile;
         const double y = rays.center_y(tile_y) + kHalfTile;
         center = rays.direction(x, y);
-        center_x = static_cast<float>(x);
-        center_y = static_cast<float>(y);
     }
 
     const CameraRays& camera;
     Vector3 center;  ///< the direction through it
-    float center_x;  ///< its pixel coordinates
-    float center_y;
 };
 
 /// Bounds on 1 / t of a candidate against those of the nearest so far.

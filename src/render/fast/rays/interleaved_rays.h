@@ -6,8 +6,6 @@
 #define NUVO_RENDER_FAST_INTERLEAVED_RAYS_H_
 #endif
 
-#include <hwy/cache_control.h>
-
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -116,7 +114,7 @@ class InterleavedRays {
         const std::uintptr_t place = ((at_leaf ^ at_node) & (0 - leaf)) ^ at_node;
         constexpr std::size_t kLine = 64;
         for (std::size_t at = 0; at < sizeof(WideNode); at += kLine)
-            hwy::Prefetch(reinterpret_cast<const char*>(place + at));
+            __builtin_prefetch(reinterpret_cast<const char*>(place + at));
     }
 
     // Lets the next ray of the batch take the place, if there is one.

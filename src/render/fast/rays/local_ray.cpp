@@ -1,22 +1,12 @@
 #include "fast/rays/local_ray.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "nuvo/math/error_bounds.h"
 
 namespace nuvo {
 namespace {
-
-constexpr int kExponentPlace = 52;
-constexpr std::uint64_t kExponentBias = 1023;
-
-// The power of two that brings a positive normal number to [1, 2).
-double to_unit(double value) {
-    const std::uint64_t exponent = std::bit_cast<std::uint64_t>(value) >> kExponentPlace;
-    return std::bit_cast<double>((2 * kExponentBias - exponent) << kExponentPlace);
-}
 
 // The ray enters the box around 0 with this half width later than this, if it does. Axes along
 // which the ray hardly moves are left out.
@@ -68,7 +58,7 @@ LocalRay::LocalRay(const Ray& ray, const LocalFrame& frame, float reach) {
     Point3 o = frame.local(ray.origin);
     const double far = max_norm(o);
     if (!(size > 1 / kRange && size < kRange && far < kRange)) return;
-    const double unit = to_unit(size);
+    const double unit = std::ldexp(1.0, -std::ilogb(size));
     const Vector3 d = ray.direction * unit;
     scale = frame.scale / unit;
     if (!(scale > 1 / kRange && scale < kRange)) return;

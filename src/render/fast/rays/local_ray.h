@@ -7,8 +7,8 @@
 //
 // In the local frame the ray is o + s d with |d| in [1, 2) in the largest component: the direction
 // was scaled by a power of two, exactly. A far origin first moves along the ray to just before the
-// root, by `advance`. What that and the double roundings of o and o + s d can shift a point of the
-// ray within the root's box is `error`, a bound for each axis.
+// octree's box, by `advance`. What that and the double roundings of o and o + s d can shift a point
+// of the ray within that box is `error`, a bound for each axis.
 
 namespace nuvo {
 

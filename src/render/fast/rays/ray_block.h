@@ -27,7 +27,7 @@ namespace nuvo::HWY_NAMESPACE {
 
 class RayBlock {
   public:
-    /// The first 16 of the rays, or all; of 0 the last one's again.
+    /// The first 16 of the rays; of fewer the last one again and again.
     HWY_NOINLINE void prepare(std::span<const Ray> rays, const LocalFrame& frame, float reach) {
         if (!prepare_near(rays, frame, reach)) prepare_far(rays, frame, reach);
     }

@@ -72,7 +72,6 @@ struct RayState {
         float entry[kWideLanes];  ///< where the ray enters the boxes, never negative
         std::uint32_t child[kWideLanes];
         std::uint32_t waiting;  ///< one bit each
-        std::uint32_t unused[15];
     };
 
     /// What is known of a block of primitives of a leaf and not yet among the candidates.

@@ -122,12 +122,7 @@ std::optional<SingleRays::Nearest> SingleRays::nearest_of(const Ray& ray,
 
 bool SingleRays::coplanar(Slot first, Slot second) const {
     return coplanar_.of({first, second}, [&] {
-        const Triangle plane = scene_.triangle(first);
-        const Triangle other = scene_.triangle(second);
-        const auto in_plane = [&](const Point3& corner) {
-            return counts_.sides.side(plane, corner, counts_.exact) == 0;
-        };
-        return in_plane(other.a) && in_plane(other.b) && in_plane(other.c);
+        return nuvo::coplanar(scene_.triangle(first), scene_.triangle(second), counts_);
     });
 }
 

@@ -15,9 +15,9 @@
 #include "fast/tile/serial_tree.h"
 #include "nuvo/render/fast.h"
 
-// Rays that have nothing in common, each on its own: a step decides on 16 voxels or 16
-// primitives at once (interleaved_rays.h), floats with proven bounds leave almost nothing open, and
-// what they do leave goes to the predicates of the serial tracer.
+// Rays that have nothing in common, each on its own: a step decides on 16 voxels or 8 to
+// 16 primitives at once (interleaved_rays.h), floats with proven bounds leave almost nothing open,
+// and what they do leave goes to the predicates of the serial tracer.
 
 namespace nuvo {
 

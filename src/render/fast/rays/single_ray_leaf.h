@@ -52,10 +52,12 @@ struct LeafVector {
     friend HWY_INLINE LeafFloats dot(const LeafVector& a, const LeafVector& b) {
         return mul_add(a.z, b.z, mul_add(a.y, b.y, a.x * b.x));
     }
-    friend HWY_INLINE LeafFloats norm(const LeafVector& a) {
+    friend HWY_INLINE LeafFloats max_norm(const LeafVector& a) {
         return max(abs(a.x), max(abs(a.y), abs(a.z)));
     }
-    friend HWY_INLINE LeafFloats sum(const LeafVector& a) { return abs(a.x) + abs(a.y) + abs(a.z); }
+    friend HWY_INLINE LeafFloats norm1(const LeafVector& a) {
+        return abs(a.x) + abs(a.y) + abs(a.z);
+    }
 };
 
 /// The first `count` of N lanes, or all.
@@ -165,8 +167,8 @@ HWY_INLINE LeafHits<N> test_triangles(const RayAtLeaf& ray, const std::uint16_t*
     const LeafFloats height = dot(n, a);
     const LeafFloats slope = dot(n, d);
     const LeafFloats k =
-        (max(norm(e1), norm(e2)) + LeafFloats(kCorner)) * LeafFloats(scale * 9 * kCorner);
-    const LeafFloats height_error = mul_add(k, sum(a), sum(n) * LeafFloats(scale * kCorner));
+        (max(max_norm(e1), max_norm(e2)) + LeafFloats(kCorner)) * LeafFloats(scale * 9 * kCorner);
+    const LeafFloats height_error = mul_add(k, norm1(a), norm1(n) * LeafFloats(scale * kCorner));
     const LeafFloats slope_error = k * LeafFloats(ray.step_sum);
     const LeafFloats inverse = LeafFloats(1.0F) / slope;
     const LeafFloats along = height * inverse;
@@ -214,10 +216,10 @@ HWY_INLINE LeafHits<N> test_spheres(const RayAtLeaf& ray, const float* values, s
                              mul_add(middle, d.z, f.z)};
     const LeafFloats across = dot(l, l);
     const LeafFloats depth = mul_add(r, r, -across);
-    const LeafFloats error = mul_add(sum(f), LeafFloats(scale * roundings(32)),
+    const LeafFloats error = mul_add(norm1(f), LeafFloats(scale * roundings(32)),
                                      LeafFloats(scale * (roundings(8) + ray.point_error)));
     const LeafFloats depth_error =
-        mul_add(mul_add(sum(l), LeafFloats(2.0F), error * LeafFloats(3.0F)), error,
+        mul_add(mul_add(norm1(l), LeafFloats(2.0F), error * LeafFloats(3.0F)), error,
                 mul_add(r, r, across) * LeafFloats(scale * roundings(16)));
     const LeafMask meets = depth > depth_error;
     const LeafMask misses = depth < -depth_error;

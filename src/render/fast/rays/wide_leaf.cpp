@@ -17,14 +17,14 @@ namespace {
 constexpr double kLargestRatio = 16;
 
 // One rounding to float, and of the doubles what roundings of numbers up to 1 can add.
-float rounded_down(double x) { return static_cast<float>(x - (std::fabs(x) * 0x1p-23 + 0x1p-50)); }
-float rounded_up(double x) { return -rounded_down(-x); }
+float below(double x) { return static_cast<float>(x - (std::fabs(x) * 0x1p-23 + 0x1p-50)); }
+float above(double x) { return -below(-x); }
 
 Bounds3T<float> rounded_outwards(const Bounds3& box) {
     Bounds3T<float> out;
     for (int axis = 0; axis < 3; ++axis) {
-        out.min[axis] = rounded_down(box.min[axis]);
-        out.max[axis] = rounded_up(box.max[axis]);
+        out.min[axis] = below(box.min[axis]);
+        out.max[axis] = above(box.max[axis]);
     }
     return out;
 }
@@ -43,7 +43,7 @@ struct Grid {
 Grid grid_over(const Bounds3& box) {
     Grid grid;
     for (int axis = 0; axis < 3; ++axis) {
-        grid.base[axis] = rounded_down(box.min[axis]);
+        grid.base[axis] = below(box.min[axis]);
         const double width = box.max[axis] - static_cast<double>(grid.base[axis]);
         std::frexp(width / kLargestCorner, &grid.exponent[axis]);
     }

@@ -380,7 +380,7 @@ class WideBuilder {
 }  // namespace
 
 WideOctree::WideOctree(const FastScene& scene) {
-    const CompactOctree octree = scene.octree(octree_options());
+    const CompactOctree octree = scene.build_octree(octree_options());
     reach = std::max(max_norm(octree.bounds.min), max_norm(octree.bounds.max));
     WideBuilder(scene, octree, *this).build();
 }

@@ -42,42 +42,32 @@ struct LocalItems {
     BigVector<std::uint8_t> front_only;  // of triangles, 8 in a byte
 };
 
-class LocalItemsMaker {
-  public:
-    explicit LocalItemsMaker(const FastScene& fast) : fast_(fast), frame_(fast.frame()) {
-        items_.boxes.resize(fast.slot_end());
-        items_.triangles.resize(fast.triangle_end());
-        items_.spheres.resize(fast.sphere_end() - fast.triangle_end());
-        items_.front_only.resize((items_.triangles.size() + 7) / 8);
-    }
-
-    LocalItems make(int threads) && {
-        const InstructionSet isa = resolved(InstructionSet::kBest);
-        const LocalTrianglesJob job{frame_, items_.triangles.data(), items_.boxes.data(),
-                                    items_.front_only.data()};
-        for_each_chunk(fast_, threads,
-                       [&](const TriangleChunk& chunk) { make_local_triangles(job, chunk, isa); });
-        for_each_quadric_part(fast_, threads, [&](QuadricSpan quadrics) {
-            for (const QuadricSlot& quadric : quadrics) {
-                fast_.prefetched_after(quadric);
-                put_quadric(quadric);
-            }
-        });
-        return std::move(items_);
-    }
-
-  private:
-    void put_quadric(const QuadricSlot& quadric) {
-        items_.boxes[quadric.slot] = local_box(frame_, fast_.primitives().item_boxes[quadric.id]);
-        if (quadric.slot >= fast_.sphere_end()) return;
-        items_.spheres[quadric.slot - fast_.triangle_end()] =
-            fast_.local(std::get<Sphere>(fast_.object(quadric.id).shape));
-    }
-
-    const FastScene& fast_;
-    const LocalFrame& frame_;
-    LocalItems items_;
-};
+LocalItems local_items(const FastScene& fast, int threads) {
+    LocalItems items;
+    items.boxes.resize(fast.slot_end());
+    items.triangles.resize(fast.triangle_end());
+    items.spheres.resize(fast.sphere_end() - fast.triangle_end());
+    items.front_only.resize((items.triangles.size() + 7) / 8);
+    const LocalTrianglesJob job{fast.frame(), items.triangles.data(), items.boxes.data(),
+                                items.front_only.data()};
+    const InstructionSet isa = resolved(InstructionSet::kBest);
+    for_each_chunk(fast, threads,
+                   [&](const TriangleChunk& chunk) { make_local_triangles(job, chunk, isa); });
+    const auto put = [&](const QuadricSlot& quadric) {
+        items.boxes[quadric.slot] =
+            local_box(fast.frame(), fast.primitives().item_boxes[quadric.id]);
+        if (quadric.slot >= fast.sphere_end()) return;
+        items.spheres[quadric.slot - fast.triangle_end()] =
+            fast.local(std::get<Sphere>(fast.object(quadric.id).shape));
+    };
+    for_each_part(threads, fast.quadrics().size(), [&](std::size_t begin, std::size_t end) {
+        for (const QuadricSlot& quadric : fast.quadrics().subspan(begin, end - begin)) {
+            fast.prefetched_after(quadric);
+            put(quadric);
+        }
+    });
+    return items;
+}
 
 // Items ascend, so those of a kind stand together. Of an ellipsoid the box decides.
 OctantTest octant_test(const LocalItems& items) {
@@ -129,7 +119,7 @@ FastScene::FastScene(const Scene& scene, const Primitives& primitives,
     if (type) options.rule = *type == OctreeType::kUniform ? CutRule::kSpatial : CutRule::kSweep;
     options.threads = threads;
     options.progress = progress;
-    LocalItems items = LocalItemsMaker(*this).make(options.threads);
+    LocalItems items = local_items(*this, options.threads);
     octree_ = octree_of(items, options);
     triangles_ = std::move(items.triangles);
     if (std::any_of(items.front_only.begin(), items.front_only.end(),
@@ -194,8 +184,8 @@ void FastScene::map_ellipsoids(int threads) {
     });
 }
 
-CompactOctree FastScene::octree(const CompactBuildOptions& options) const {
-    return octree_of(LocalItemsMaker(*this).make(options.threads), options);
+CompactOctree FastScene::build_octree(const CompactBuildOptions& options) const {
+    return octree_of(local_items(*this, options.threads), options);
 }
 
 }  // namespace nuvo

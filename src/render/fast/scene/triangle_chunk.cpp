@@ -96,14 +96,4 @@ void for_each_chunk(const FastScene& scene, const BigVector<Slot>& slots, Slot c
     for_each_chunk_of(scene, &slots, count, threads, work);
 }
 
-void for_each_quadric_part(const FastScene& scene, int threads,
-                           const std::function<void(QuadricSpan)>& work) {
-    constexpr std::size_t kStep = 256;
-    const QuadricSpan all = scene.quadrics();
-    for_each_part(threads, all.size(), [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; i += kStep)
-            work(all.subspan(i, std::min(kStep, end - i)));
-    });
-}
-
 }  // namespace nuvo

@@ -79,9 +79,4 @@ void for_each_chunk(const FastScene& scene, int threads,
 void for_each_chunk(const FastScene& scene, const BigVector<Slot>& slots, Slot count, int threads,
                     const std::function<void(const TriangleChunk&)>& work);
 
-/// Calls work(some) for all quadrics, so few at a time that their objects are still at hand
-/// when the next table asks.
-void for_each_quadric_part(const FastScene& scene, int threads,
-                           const std::function<void(QuadricSpan)>& work);
-
 }  // namespace nuvo

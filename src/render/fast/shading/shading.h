@@ -58,14 +58,12 @@ void pick_finish_kernel(InstructionSet isa, ShadingKernels& kernels);
 ///   for each light: sample(tile, light, wanted), find which wanted lanes are unblocked, add(...);
 ///   finish(tile, fallback, image);
 /// after the last tile decide_open(fallback, image).
-/// For one thread; copies share the tables.
+/// For one thread.
 class ShadingStage {
   public:
     /// With tables that outlive it and are filled before anything is asked. `redo_exactly` false:
     /// bytes that are not certain stay as they are.
     explicit ShadingStage(const ShadingTables& tables, bool redo_exactly = true);
-
-    const ShadingTables& tables() const { return *tables_; }
 
     /// Points and normals: Tile::point and point_error (which bounds the distance, too) of every
     /// lane that hits something; Tile::normal of quadrics and interpolated normals, and

@@ -49,7 +49,7 @@ class TriangleFiller {
         std::uint32_t object = ~0U;
         chunk.for_each_batch(
             [&](const TriangleBatch& batch, Slot place, std::size_t count) HWY_ATTR {
-                const Slot first = chunk.slot(place);
+                const Slot first = chunk.slot(place);  // lists are of whole batches (TriangleSet)
                 for (std::size_t lane = 0; lane < count; ++lane) {
                     const PrimitiveSource& source = scene.source(first + static_cast<Slot>(lane));
                     if (source.object != object) {

@@ -64,25 +64,25 @@ class TileFinisher {
         Floats specular_most;
     };
 
-    HWY_INLINE void take(const ShadingMaterial& m, MaterialLanes& out) const {
+    /// `put(lanes, number)`: gives lanes the material's number.
+    template <typename Put>
+    HWY_INLINE static void take(const ShadingMaterial& m, MaterialLanes& out, const Put& put) {
         for (int c = 0; c < 3; ++c) {
-            out.diffuse[c] = Floats(m.diffuse[c]);
-            out.emissive[c] = Floats(m.emissive[c]);
-            out.specular[c] = Floats(m.specular[c]);
+            put(out.diffuse[c], m.diffuse[c]);
+            put(out.emissive[c], m.emissive[c]);
+            put(out.specular[c], m.specular[c]);
         }
-        out.diffuse_most = Floats(m.diffuse_most);
-        out.emissive_most = Floats(m.emissive_most);
-        out.specular_most = Floats(m.specular_most);
+        put(out.diffuse_most, m.diffuse_most);
+        put(out.emissive_most, m.emissive_most);
+        put(out.specular_most, m.specular_most);
     }
-    HWY_INLINE void take(const ShadingMaterial& m, const RayMask& lanes, MaterialLanes& out) const {
-        for (int c = 0; c < 3; ++c) {
-            out.diffuse[c] = select(lanes, Floats(m.diffuse[c]), out.diffuse[c]);
-            out.emissive[c] = select(lanes, Floats(m.emissive[c]), out.emissive[c]);
-            out.specular[c] = select(lanes, Floats(m.specular[c]), out.specular[c]);
-        }
-        out.diffuse_most = select(lanes, Floats(m.diffuse_most), out.diffuse_most);
-        out.emissive_most = select(lanes, Floats(m.emissive_most), out.emissive_most);
-        out.specular_most = select(lanes, Floats(m.specular_most), out.specular_most);
+    HWY_INLINE static void take(const ShadingMaterial& m, MaterialLanes& out) {
+        take(m, out, [](Floats& lanes, float number) HWY_ATTR { lanes = Floats(number); });
+    }
+    HWY_INLINE static void take(const ShadingMaterial& m, const RayMask& some, MaterialLanes& out) {
+        take(m, out, [&](Floats& lanes, float number) HWY_ATTR {
+            lanes = select(some, Floats(number), lanes);
+        });
     }
 
     HWY_INLINE void find_materials(int b, std::uint32_t hit, MaterialLanes& out) const {

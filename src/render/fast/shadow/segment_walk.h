@@ -29,7 +29,7 @@ class SegmentWalk {
             std::uint32_t node;
             Bounds3T<float> voxel;
         };
-        Place places[7 * CompactOctree::kMaxDepth + 1];
+        Place places[CompactOctree::kMostWaiting];
         int waiting = 0;
         places[waiting++] = {0, octree.bounds};
         while (waiting != 0) {

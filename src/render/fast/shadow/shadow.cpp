@@ -22,11 +22,7 @@ namespace nuvo::HWY_NAMESPACE {
 class ShadowTracer {
   public:
     ShadowTracer(ShadowJob& job, const Tile& tile, std::size_t light, const ExactFallback& fallback)
-        : context_(job, light),
-          tile_(tile),
-          light_(light),
-          fallback_(fallback),
-          lookup_(context_, blocks_) {}
+        : context_(job, light), tile_(tile), fallback_(fallback), lookup_(context_, blocks_) {}
 
     void run(const TileMask& wanted, TileMask& lit) {
         std::uint32_t unknown[kTileBlocks];
@@ -73,16 +69,14 @@ class ShadowTracer {
         };
         Mailbox& mailbox = context_.job.mailbox;
         mailbox.start();
-        walk_beam(
-            tables.scene().octree(), beam_to_light(context_.table.light, low, high, slack),
-            [](float) { return false; },
-            [&](const std::uint32_t* items, std::uint32_t count, float) HWY_ATTR {
-                for (std::uint32_t i = 0; i < count && !too_many(); ++i, ++tests)
-                    if (context_.job.walk_planes.may_hide(light_, items[i]) &&
-                        !mailbox.seen(items[i]))
-                        block.test_met(context_, items[i], lanes);
-                return (block.waiting() & lanes) == 0 || too_many();
-            });
+        walk_beam(tables.scene().octree(), beam_to_light(context_.table.light, low, high, slack),
+                  [&](const std::uint32_t* items, std::uint32_t count) HWY_ATTR {
+                      for (std::uint32_t i = 0; i < count && !too_many(); ++i, ++tests)
+                          if (context_.job.walk_planes.may_hide(context_.light, items[i]) &&
+                              !mailbox.seen(items[i]))
+                              block.test_met(context_, items[i], lanes);
+                      return (block.waiting() & lanes) == 0 || too_many();
+                  });
         if (!too_many()) return;
         open.resize(open_before);
         const auto b = static_cast<std::uint32_t>(&block - blocks_);
@@ -93,7 +87,7 @@ class ShadowTracer {
     auto shadow_ray(std::uint32_t lane) const {
         const auto i = static_cast<int>(lane);
         return fallback_.shadow_ray(tile_.x + lane_x(i), tile_.y + lane_y(i), tile_.slot[i],
-                                    light_);
+                                    context_.light);
     }
 
     // The walk of a single point, in double.
@@ -115,7 +109,7 @@ class ShadowTracer {
             if (!fallback_.may_visit()) return true;
             int near = 0;
             for (std::uint32_t i = 0; i < count; ++i) {
-                if (!context_.job.walk_planes.may_hide(light_, items[i]) ||
+                if (!context_.job.walk_planes.may_hide(context_.light, items[i]) ||
                     mailbox.seen(items[i]) || !fallback_.comes_near(ray, items[i]))
                     continue;
                 if (++near > kCrowded) return fallback_.blocks_any(ray, {items, count});
@@ -167,7 +161,6 @@ class ShadowTracer {
 
     ShadowContext context_;
     const Tile& tile_;
-    std::size_t light_;
     const ExactFallback& fallback_;
     ShadowBlock blocks_[kTileBlocks];
     ShadowLookup lookup_;

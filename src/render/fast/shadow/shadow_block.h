@@ -45,7 +45,7 @@ class ShadowBlock {
         const Floats size = max(points_.size(), Floats(tables.dense()));
         plane_error_ = mul_add(size, Floats(kPlaneError), error_ + Floats(tables.plane_error())) *
                        Floats(kRounded);
-        if (!tables.has_rounds()) return;
+        if (!tables.has_quadrics()) return;
         quadric_error_ =
             mul_add(size, Floats(kQuadricError), error_ + error_ + Floats(tables.quadric_touch()));
         shadow_rays_ = ShadowRays(context.table.light, points_);
@@ -67,12 +67,12 @@ class ShadowBlock {
         if (place < table.triangles)
             test_triangle(context, table.planes[place], table.slot(place), lanes);
         else
-            test_round(context, table.slot(place), lanes);
+            test_quadric(context, table.slot(place), lanes);
     }
     /// The same of a slot that a walk meets.
     HWY_INLINE void test_met(const ShadowContext& context, Slot slot, std::uint32_t lanes) {
         if (slot >= context.job.tables.scene().triangle_end())
-            test_round(context, slot, lanes);
+            test_quadric(context, slot, lanes);
         else if (const ShadowPlanes* const planes = context.job.walk_planes.of(context.light, slot))
             test_triangle(context, *planes, slot, lanes);
     }
@@ -113,7 +113,7 @@ class ShadowBlock {
         return static_cast<int>(pair) - static_cast<int>(PairShadow::kPastEdgeAB);
     }
 
-    HWY_INLINE void test_round(const ShadowContext& context, Slot slot, std::uint32_t lanes) {
+    HWY_INLINE void test_quadric(const ShadowContext& context, Slot slot, std::uint32_t lanes) {
         const QuadricItem item(context.job.tables, context.table, slot);
         if (item.side == LightSide::kBlind) return;
         const Floats error =
@@ -126,7 +126,7 @@ class ShadowBlock {
         if (!item.sphere && scene.ball(slot).sure)
             test_ball(context, scene.ball(slot), item.side, slot, open, error);
         else
-            leave_round(context.job, slot, open, item, test, {points_, shadow_rays_, error});
+            leave_quadric(context.job, slot, open, item, test, {points_, shadow_rays_, error});
     }
     // The same where the ellipsoid is a ball. [numerics: ellipsoids as balls]
     HWY_NOINLINE void test_ball(const ShadowContext& context, const BallMap& map, LightSide side,
@@ -153,7 +153,7 @@ class ShadowBlock {
         block(lanes & test.blocked());
         lanes &= waiting_ & ~test.free();
         if (HWY_UNLIKELY(lanes != 0))
-            leave_round(context.job, slot, lanes, item, test, {points, rays, more});
+            leave_quadric(context.job, slot, lanes, item, test, {points, rays, more});
     }
     // Points and rays as a quadric is tested against them, and how far these may be off.
     struct Seen {
@@ -163,9 +163,9 @@ class ShadowBlock {
     };
     // Nor does a sphere where the ray to the light leads outwards. Its own points touch it, so they
     // come here unless their shadow rays lead deep into it.
-    HWY_NOINLINE void leave_round(ShadowJob& job, Slot slot, std::uint32_t lanes,
-                                  const QuadricItem& item, const QuadricTest& test,
-                                  const Seen& seen) {
+    HWY_NOINLINE void leave_quadric(ShadowJob& job, Slot slot, std::uint32_t lanes,
+                                    const QuadricItem& item, const QuadricTest& test,
+                                    const Seen& seen) {
         const Floats& error = seen.error;
         const std::uint32_t of_item = lanes & own(slot);
         std::uint32_t rounded =

@@ -6,8 +6,6 @@
 #define NUVO_RENDER_FAST_SHADOW_LOOKUP_H_
 #endif
 
-#include <hwy/cache_control.h>
-
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -114,7 +112,7 @@ class ShadowLookup {
         visit.cell = cell;
         visit.block = static_cast<std::uint16_t>(b);
         visit.lanes = static_cast<std::uint16_t>(lanes);
-        hwy::Prefetch(&buffer_.starts[cell]);
+        __builtin_prefetch(&buffer_.starts[cell]);
         return visit;
     }
 
@@ -182,7 +180,7 @@ class ShadowLookup {
         constexpr std::size_t kLine = 64 / sizeof(std::uint32_t);
         const LightGroup group = buffer_.group(visit.begin, visit.end);
         for (std::size_t at = 0; at < LightGroup::kWords * LightGroup::kMost; at += kLine)
-            hwy::Prefetch(group.words + at);
+            __builtin_prefetch(group.words + at);
     }
     // Looks at the next entries, up to `most`; false: nothing is left to be looked at.
     HWY_INLINE bool scan(Visit& visit, std::uint32_t most) {
@@ -225,9 +223,9 @@ class ShadowLookup {
     HWY_INLINE void prefetch_item(Slot place) const {
         const ShadowTable& table = context_.table;
         if (place < table.triangles)
-            hwy::Prefetch(&table.planes[place]);
+            __builtin_prefetch(&table.planes[place]);
         else
-            hwy::Prefetch(&context_.job.tables.quadric(table.slot(place)));
+            __builtin_prefetch(&context_.job.tables.quadric(table.slot(place)));
     }
     // As many for each group, some of them again: as many as it gave, the processor would not know.
     HWY_INLINE void prefetch_next() {

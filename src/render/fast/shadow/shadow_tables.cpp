@@ -49,7 +49,9 @@ ShadowTables::ShadowTables(const FastScene& scene, InstructionSet isa, int threa
                            std::vector<std::optional<WantedDepths>> wanted)
     : scene_(scene), isa_(isa), threads_(threads), dense_(rounded_up(scene.frame().dense)) {
     make_tables();
-    for_each_quadric_part(scene, threads, [&](QuadricSpan some) { take_quadrics(some); });
+    for_each_part(threads, quadrics_.size(), [&](std::size_t begin, std::size_t end) {
+        take_quadrics(scene.quadrics().subspan(begin, end - begin));
+    });
     wanted.resize(tables_.size());
     std::vector<std::size_t> listed;
     std::vector<std::size_t> whole;
@@ -130,7 +132,6 @@ void ShadowTables::make_planes(ShadowTable& table, std::size_t light,
                                const TriangleChunk& chunk) const {
     const ShadowPlanesJob job{scene_,
                               table.light,
-                              scene_.reach(),
                               table.planes.data(),
                               table.hides.data(),
                               scene_.scene().lights[light]};

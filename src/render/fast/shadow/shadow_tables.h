@@ -59,7 +59,7 @@ class ShadowTables {
     /// Of light i; empty where it casts no shadow.
     const ShadowTable& table(std::size_t light) const { return tables_[light]; }
     const Quadric& quadric(Slot slot) const { return quadrics_[slot - scene_.triangle_end()]; }
-    bool has_rounds() const { return !quadrics_.empty(); }
+    bool has_quadrics() const { return !quadrics_.empty(); }
     /// Whether points that were not wanted can be looked up, too.
     bool complete() const;
 

@@ -10,7 +10,7 @@ void WalkPlanes::make(Batch& batch, std::size_t light, Slot first) {
     // Written from place 0 on.
     chunk_.last -= chunk_.first;
     chunk_.first = 0;
-    make_shadow_planes({scene, tables_.table(light).light, scene.reach(), batch.planes,
+    make_shadow_planes({scene, tables_.table(light).light, batch.planes,
                         &batch.hides, scene.scene().lights[light]},
                        chunk_, tables_.isa());
     batch.first = first;

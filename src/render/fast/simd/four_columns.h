@@ -14,8 +14,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace nuvo::HWY_NAMESPACE {
 
-/// The numbers of 16 records of 4 by column. Squares of 4 x 4 are transposed within each quarter of
-/// a register; so record i has to stand at place(i).
+/// The numbers of 16 records of 4 by column. Squares of 4 x 4 are transposed within 128 bits
+/// each; so record i has to stand at place(i).
 struct FourColumns {
     static constexpr std::size_t kRecords = 16;
     static constexpr std::size_t place(std::size_t i) { return i % 4 * 4 + i / 4; }

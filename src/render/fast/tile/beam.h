@@ -6,8 +6,6 @@
 #define NUVO_RENDER_FAST_BEAM_H_
 #endif
 
-#include <hwy/cache_control.h>
-
 #include <bit>
 
 #include "fast/simd/lanes.h"
@@ -62,9 +60,8 @@ class BeamSlabs {
     /// Octant o ^ flip() for o = 0..7 is an order from near to far (or from far to near).
     unsigned flip() const { return flip_; }
 
-    /// The octants of the voxel that the beam may meet; `entry` takes lower bounds of t.
-    HWY_INLINE std::uint32_t meets(const float* low, const float* cut, const float* high,
-                                   float* entry) const {
+    /// The octants of the voxel that the beam may meet.
+    HWY_INLINE std::uint32_t meets(const float* low, const float* cut, const float* high) const {
         OctantFloats first(0.0F);
         OctantFloats last(t_end_);
         for (int axis = 0; axis < 3; ++axis) {
@@ -82,7 +79,6 @@ class BeamSlabs {
                 last = min(last, far * OctantFloats(exit_scale_[axis]));
             }
         }
-        first.store(entry);
         return (first <= last).bits();
     }
 
@@ -126,8 +122,6 @@ struct alignas(32) StackedVoxel {
     StackedVoxel() = default;
     float face[8];
 };
-/// How many voxels wait at most.
-inline constexpr int kWalkStack = 7 * CompactOctree::kMaxDepth + 1;
 
 /// Calls put(octant, faces), with the faces of a StackedVoxel, for some octants of a voxel, the
 /// farthest first, so that of a stack the nearest is taken next. Octant o ^ flip for o = 0..7 is
@@ -147,50 +141,43 @@ HWY_INLINE void from_far_to_near(std::uint32_t octants, unsigned flip, const Sta
     }
 }
 
-/// Calls `leaf(items, count, entry)` for each leaf that the beam may meet, in the beam's order,
-/// until it returns true; then returns true. `skip(entry)`: whether nothing from t = entry on
-/// matters.
-template <bool kStraddles, typename Skip, typename Leaf>
-HWY_INLINE bool walk_beam(const CompactOctree& octree, const BeamSlabs<kStraddles>& slabs,
-                          Skip&& skip, Leaf&& leaf) {
-    struct Place {
-        float t;
-        std::uint32_t node;
-    };
-    StackedVoxel voxels[kWalkStack];
-    Place places[kWalkStack];
+/// Calls `leaf(items, count)` for each leaf that the beam may meet, in the beam's order, until it
+/// returns true.
+template <bool kStraddles, typename Leaf>
+HWY_INLINE void walk_beam(const CompactOctree& octree, const BeamSlabs<kStraddles>& slabs,
+                          Leaf&& leaf) {
+    StackedVoxel voxels[CompactOctree::kMostWaiting];
+    std::uint32_t places[CompactOctree::kMostWaiting];
     const CompactNode* const nodes = octree.nodes.data();
     StackedVoxel voxel(octree.bounds);
-    Place at{0, 0};
+    std::uint32_t at = 0;
     int waiting = 0;
     for (;;) {
-        const CompactNode& node = nodes[at.node];
+        const CompactNode& node = nodes[at];
         if (node.is_leaf()) {
-            if (leaf(octree.items.data() + node.first_item(), node.item_count(), at.t)) return true;
+            if (leaf(octree.items.data() + node.first_item(), node.item_count())) return;
         } else {
-            hwy::Prefetch(nodes + node.first_child());
-            float entry[8];
-            const std::uint32_t met = slabs.meets(voxel.face, node.cut, voxel.face + 4, entry);
+            __builtin_prefetch(nodes + node.first_child());
+            const std::uint32_t met = slabs.meets(voxel.face, node.cut, voxel.face + 4);
             from_far_to_near(met & node.mask(), slabs.flip(), voxel, node,
                              [&](unsigned octant, const OctantFloats& faces) HWY_ATTR {
                                  faces.store(voxels[waiting].face);
-                                 places[waiting++] = {entry[octant], node.child(octant)};
+                                 places[waiting++] = node.child(octant);
                              });
         }
-        do {
-            if (waiting == 0) return false;
-            at = places[--waiting];
-        } while (skip(at.t));
+        if (waiting == 0) return;
+        at = places[--waiting];
         voxel = voxels[waiting];
     }
 }
 
 /// The same, choosing the cheaper slab tests where no axis is straddled.
-template <typename Skip, typename Leaf>
-HWY_INLINE bool walk_beam(const CompactOctree& octree, const BeamBox& beam, Skip&& skip,
-                          Leaf&& leaf) {
-    if (beam.straddles()) return walk_beam(octree, BeamSlabs<true>(beam), skip, leaf);
-    return walk_beam(octree, BeamSlabs<false>(beam), skip, leaf);
+template <typename Leaf>
+HWY_INLINE void walk_beam(const CompactOctree& octree, const BeamBox& beam, Leaf&& leaf) {
+    if (beam.straddles())
+        walk_beam(octree, BeamSlabs<true>(beam), leaf);
+    else
+        walk_beam(octree, BeamSlabs<false>(beam), leaf);
 }
 
 }  // namespace nuvo::HWY_NAMESPACE

@@ -9,7 +9,7 @@ struct BeamBox {
     float direction_low[3];   ///< never 0: see keep_off_zero()
     float direction_high[3];  ///< never 0
     float t_end;
-    bool far_first = false;  ///< the order in which leaves are visited
+    bool far_first = false;  ///< leaves are visited from the far end on
 
     bool straddles() const {
         return (direction_low[0] < 0 && direction_high[0] > 0) ||

@@ -29,7 +29,8 @@ std::optional<ExactFallback::Nearest> ExactFallback::nearer(int x, int y, Slot s
     Nearest nearest{inverse * (1 - kRounded), inverse * (1 + kRounded), {}};
     if (slot >= scene_.triangle_end()) {
         const Object& object = scene_.object(scene_.id(slot));
-        Object solid{{}, object.material, object.shape_index, true};
+        // As of a solid, so that the normal stays turned outwards. [Tile::quadric_normal]
+        const Object solid{{}, object.material, object.shape_index, true};
         nearest.normal = kernel_.surface(prepared, *hit, solid).normal;
     }
     return nearest;

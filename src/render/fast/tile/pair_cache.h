@@ -38,7 +38,7 @@ class PairCache {
 
   private:
     static constexpr std::size_t kLeast = std::size_t{1} << 10;
-    static constexpr std::size_t kMost = std::size_t{1} << 18;  // 4 MB
+    static constexpr std::size_t kMost = std::size_t{1} << 18;  // 4 to 7 MB
     struct Entry {
         SlotPair pair;  // first is kNoSlot: free
         Answer answer{};
