@@ -81,7 +81,7 @@ TEST(WantedItems, HoldWhateverBlocksAWantedPoint) {
         const Primitives primitives = flatten(scene, LeafContent::kPrimitives);
         const FastScene fast(scene, primitives, OctreeType::kUniform, 1);
         const auto tile = std::make_unique<WantedTile>(random, fast);
-        BigVector<Quadric> quadrics;
+        BigVector<LocalSphere> quadrics;
         for (Slot slot = fast.triangle_end(); slot < fast.slot_end(); ++slot) {
             const Bounds3 box = bounds(fast.object(fast.id(slot)).shape);
             const Point3 center = fast.frame().local(box.center());
@@ -283,9 +283,9 @@ TEST(WantedItems, AreNoneWhereNoPointIsWanted) {
     scene.lights.resize(1);
     const Primitives primitives = flatten(scene, LeafContent::kPrimitives);
     const FastScene fast(scene, primitives, OctreeType::kUniform, 1);
-    BigVector<Quadric> quadrics;
+    BigVector<LocalSphere> quadrics;
     quadrics.resize(fast.slot_end() - fast.triangle_end());
-    std::fill(quadrics.begin(), quadrics.end(), Quadric{{0, 0, 0}, 1});
+    std::fill(quadrics.begin(), quadrics.end(), LocalSphere{{0, 0, 0}, 1});
     const InstructionSet isa = resolved(InstructionSet::kBest);
     const LightPoint place(scene.lights[0], fast.frame());
     std::optional<WantedDepths> depths = WantedDepths::of(fast, place, isa);

@@ -52,8 +52,7 @@ class CornerFetch {
     void follow_source(Batch& batch) const {
         for (std::size_t i = 0; i < batch.count; ++i) {
             const PrimitiveSource& source = scene_.source(batch.slot[i]);
-            const auto& mesh =
-                *std::get_if<TriangleMesh>(&scene_.scene().objects[source.object].shape);
+            const TriangleMesh& mesh = scene_.mesh(source);
             batch.indices[i] = &mesh.triangles[source.triangle];
             batch.positions[i] = mesh.positions.data();
             __builtin_prefetch(batch.indices[i]);

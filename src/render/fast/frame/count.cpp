@@ -4,7 +4,6 @@
 #include <memory>
 
 #include "fast/primary/primary.h"
-#include "surface_color.h"
 
 // Which lights reach a point is asked of the serial tracer's own code, lane by lane: the float
 // stages may trace a shadow ray more than needed, or one less.

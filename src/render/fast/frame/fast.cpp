@@ -1,7 +1,5 @@
 #include "nuvo/render/fast.h"
 
-#include <cmath>
-
 #include "fast/frame/count.h"
 #include "fast/frame/frame.h"
 #include "fast/rays/single_ray.h"

@@ -3,23 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <span>
 
 #include "fast/scene/fast_scene.h"
 #include "nuvo/math/big_vector.h"
 
 namespace nuvo {
 
-/// A sphere, or one around an ellipsoid, in the local frame.
-struct Quadric {
-    float center[3];
-    float radius;
-};
-/// Its largest number.
-inline float size_of(const Quadric& quadric) {
-    float size = quadric.radius;
-    for (const float x : quadric.center) size = std::fmax(size, std::fabs(x));
-    return size;
+/// The sphere's largest number.
+inline float size_of(const LocalSphere& sphere) {
+    return std::fmax(sphere.radius, max_norm(sphere.center));
 }
 
 /// Where a light stands towards a quadric; kBlind: it sees no front of it, or the shape casts
@@ -29,8 +21,8 @@ enum class LightSide : std::uint8_t { kOutside, kInside, kBlind, kUnknown };
 /// What may stand in a light's way: items by their places in a list.
 struct LightItems {
     const FastScene& scene;
-    const BigVector<Quadric>& quadrics;  ///< by slot - triangle_end
-    double touch;                        ///< what lies within this of a shadow ray may block it
+    const BigVector<LocalSphere>& quadrics;  ///< or spheres around them, by slot - triangle_end
+    double touch;                            ///< what lies within this of a shadow ray may block it
     /// Ascending; null: all slots, each at its own place.
     const BigVector<Slot>* slots = nullptr;
     /// Which triangles may hide something, by place, 8 in a byte, and 2 more bytes; null: all.

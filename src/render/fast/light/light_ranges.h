@@ -351,7 +351,7 @@ HWY_INLINE ItemCorners corners_of(const LightItems& items, Slot count, const Slo
     }
     alignas(64) float at[2][3][16];
     for (Slot i = 0; i < 16; ++i) {
-        const Quadric& shape = items.quadrics[slot_at(std::min(i, count - 1)) - triangle_end];
+        const LocalSphere& shape = items.quadrics[slot_at(std::min(i, count - 1)) - triangle_end];
         for (int axis = 0; axis < 3; ++axis) {
             // Of a radius that is NaN the box is left.
             const float low = shape.center[axis] - shape.radius;

@@ -6,7 +6,6 @@
 #define NUVO_RENDER_FAST_FRUSTUM_H_
 #endif
 
-#include <bit>
 #include <cmath>
 #include <limits>
 

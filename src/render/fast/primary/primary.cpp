@@ -1,7 +1,9 @@
 #include "fast/primary/primary.h"
 
+#include <bit>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "fast/primary/primary.cpp"

@@ -6,8 +6,6 @@
 #define NUVO_RENDER_FAST_PRIMARY_LANES_H_
 #endif
 
-#include <cmath>
-
 #include "fast/camera/camera_tables.h"
 #include "fast/primary/macro_tile.h"
 #include "fast/simd/lanes.h"

@@ -7,7 +7,6 @@
 #endif
 
 #include <bit>
-#include <cmath>
 #include <cstring>
 #include <limits>
 #include <span>

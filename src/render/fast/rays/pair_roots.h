@@ -4,7 +4,6 @@
 #include <cstdint>
 
 #include "nuvo/geometry/sphere.h"
-#include "nuvo/geometry/triangle_mesh.h"
 #include "nuvo/math/ray.h"
 #include "nuvo/render/fast.h"
 

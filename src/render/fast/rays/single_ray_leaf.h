@@ -6,7 +6,6 @@
 #define NUVO_RENDER_FAST_SINGLE_RAY_LEAF_H_
 #endif
 
-#include <bit>
 #include <limits>
 
 #include "fast/rays/ray_state.h"

@@ -5,7 +5,6 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <limits>
 
 // Corners are copied in 16 bits on a grid that spans the leaf's triangles: half the memory of
 // floats, and more accurate than those where a leaf is less than 1 / 256 of the scene.

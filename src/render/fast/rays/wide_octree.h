@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 #include "fast/scene/fast_scene.h"
 #include "nuvo/math/big_vector.h"

@@ -1,6 +1,5 @@
 #include "fast/scene/ball_map.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "nuvo/math/error_bounds.h"

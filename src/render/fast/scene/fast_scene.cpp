@@ -162,7 +162,7 @@ void FastScene::prefetch(std::span<const Slot> slots) const {
         for (const Slot slot : slots) {
             if (slot >= triangle_end_) continue;
             const PrimitiveSource& from = source(slot);
-            use(*std::get_if<TriangleMesh>(&scene_.objects[from.object].shape), from.triangle);
+            use(mesh(from), from.triangle);
         }
     };
     for_each_triangle([](const TriangleMesh& mesh, std::uint32_t triangle) {

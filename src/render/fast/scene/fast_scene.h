@@ -86,10 +86,14 @@ class FastScene {
     const Object& object(PrimitiveId id) const {
         return scene_.objects[primitives_.sources[id].object];
     }
+    /// The mesh of a triangle.
+    const TriangleMesh& mesh(const PrimitiveSource& triangle) const {
+        return *std::get_if<TriangleMesh>(&scene_.objects[triangle.object].shape);
+    }
     /// The triangle of that slot; world space.
     Triangle triangle(Slot slot) const {
         const PrimitiveSource& from = source(slot);
-        return std::get<TriangleMesh>(scene_.objects[from.object].shape).triangle(from.triangle);
+        return mesh(from).triangle(from.triangle);
     }
     /// In the local frame, rounded to nearest.
     LocalSphere local(const Sphere& sphere) const {

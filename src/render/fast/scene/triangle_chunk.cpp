@@ -27,18 +27,15 @@ void ask_for(const TriangleMesh& mesh) {
 // `end`: of the places that slot_at() knows.
 template <typename SlotAt>
 void TriangleChunk::gather(const FastScene& scene, Slot end, SlotAt&& slot_at) {
-    const std::vector<Object>& objects = scene.scene().objects;
-    const auto mesh_of = [&](std::uint32_t object) -> const TriangleMesh& {
-        return *std::get_if<TriangleMesh>(&objects[object].shape);
-    };
     Slot place = first;
     while (place < last) {
-        const std::uint32_t object = scene.source(slot_at(place)).object;
-        const TriangleMesh& mesh = mesh_of(object);
-        const std::uint32_t front_only = scene.front_only(objects[object]) ? 1 : 0;
-        const std::uint32_t shadowless = objects[object].casts_shadow ? 0 : 1;
-        if (end - place > kAhead) ask_for(mesh_of(scene.source(slot_at(place + kAhead)).object));
-        for (; place < last && scene.source(slot_at(place)).object == object; ++place) {
+        const PrimitiveSource& source = scene.source(slot_at(place));
+        const Object& object = scene.scene().objects[source.object];
+        const TriangleMesh& mesh = scene.mesh(source);
+        const std::uint32_t front_only = scene.front_only(object) ? 1 : 0;
+        const std::uint32_t shadowless = object.casts_shadow ? 0 : 1;
+        if (end - place > kAhead) ask_for(scene.mesh(scene.source(slot_at(place + kAhead))));
+        for (; place < last && scene.source(slot_at(place)).object == source.object; ++place) {
             const IndexTriple& corners = mesh.triangles[scene.source(slot_at(place)).triangle];
             TriangleBatch& batch = batches[(place - first) / TriangleBatch::kSize];
             const std::size_t lane = (place - first) % TriangleBatch::kSize;

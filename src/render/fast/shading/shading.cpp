@@ -2,8 +2,6 @@
 
 #include <bit>
 
-#include "fast/simd/dispatch.h"
-
 namespace nuvo {
 
 ShadingStage::ShadingStage(const ShadingTables& tables, bool redo_exactly)

@@ -1,6 +1,5 @@
 #include "fast/shading/shading_tables.h"
 
-#include <cmath>
 #include <limits>
 
 #include "nuvo/math/error_bounds.h"

@@ -1,7 +1,6 @@
 #include "fast/shading/shading.h"
 
 #include <bit>
-#include <limits>
 #include <type_traits>
 
 #undef HWY_TARGET_INCLUDE

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "fast/shading/shading_tables.h"
 #include "fast/simd/estimate_error.h"

@@ -1,6 +1,5 @@
 #include "fast/shading/shading.h"
 
-#include <bit>
 #include <limits>
 
 #undef HWY_TARGET_INCLUDE

@@ -119,7 +119,7 @@ void place_smooth_triangles(const FastScene& scene, ShadingTriangles& triangles)
     for (Slot slot = 0; slot < scene.triangle_end(); ++slot) {
         if (scene.source(slot).object != object) {
             object = scene.source(slot).object;
-            smooth = !std::get<TriangleMesh>(scene.scene().objects[object].shape).normals.empty();
+            smooth = !scene.mesh(scene.source(slot)).normals.empty();
             triangles.smooth_offsets[object] = slot - count;
         }
         if (smooth) ++count;

@@ -6,7 +6,6 @@
 #define NUVO_RENDER_FAST_SMOOTH_NORMALS_H_
 #endif
 
-#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -306,9 +305,7 @@ class SmoothNormalLanes {
     HWY_INLINE void fill_triangle(Slot slot) {
         const SurfaceWord word = tables_.triangles.words[slot];
         const PrimitiveSource& source = scene_.source(slot);
-        if ((word & kColoredFlag) != 0)
-            fill_color(std::get<TriangleMesh>(scene_.scene().objects[source.object].shape),
-                       source.triangle);
+        if ((word & kColoredFlag) != 0) fill_color(scene_.mesh(source), source.triangle);
         if ((word & kSmoothFlag) != 0)
             add_smooth(
                 tables_.triangles.smooth[slot - tables_.triangles.smooth_offsets[source.object]]);

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cmath>
+#include <limits>
+
 #include "fast/scene/fast_scene.h"
 #include "nuvo/geometry/predicates.h"
 #include "nuvo/math/error_bounds.h"

@@ -146,7 +146,7 @@ class ShadowBlock {
         const Points points{row(0), row(1), row(2)};
         const ShadowRays rays(map.to_ball * (light.toward - (map.center - Point3{}) * light.weight),
                               light.weight, points);
-        const Quadric ball{{0, 0, 0}, static_cast<float>(map.radius)};
+        const LocalSphere ball{{0, 0, 0}, static_cast<float>(map.radius)};
         const QuadricItem item(ball, side);
         const Floats more = error * Floats(rounded_up(2 * map.stretch * (1 + map.stretch)));
         const QuadricTest test(item, points, rays, more);

@@ -9,8 +9,6 @@
 #include "fast/light/light_cells.h"
 #include "fast/shadow/shadow_tables.h"
 #include "fast/simd/lanes.h"
-#include "fast/tile/beam_box.h"
-#include "fast/tile/tile.h"
 
 // Points in registers against what hides them from a light.
 
@@ -60,7 +58,7 @@ struct ShadowRays {
 /// A sphere, one around an ellipsoid, or an ellipsoid's ball, with what is known of it towards the
 /// light.
 struct QuadricItem {
-    HWY_INLINE QuadricItem(const Quadric& ball, LightSide of_sphere_around)
+    HWY_INLINE QuadricItem(const LocalSphere& ball, LightSide of_sphere_around)
         : shape(ball),
           sphere(true),
           side(of_sphere_around == LightSide::kOutside ? of_sphere_around : LightSide::kUnknown) {}
@@ -71,7 +69,7 @@ struct QuadricItem {
                    ? LightSide::kOutside
                    : table.quadric_sides[slot - tables.scene().triangle_end()]) {}
 
-    const Quadric& shape;
+    const LocalSphere& shape;
     bool sphere;  ///< not one around something
     LightSide side;
 };

@@ -7,7 +7,6 @@
 #endif
 
 #include <bit>
-#include <cmath>
 #include <limits>
 
 #include "fast/light/counted_points.h"

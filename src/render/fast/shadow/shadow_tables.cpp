@@ -130,10 +130,7 @@ void ShadowTables::fill_buffer(ShadowTable& table) const {
 
 void ShadowTables::make_planes(ShadowTable& table, std::size_t light,
                                const TriangleChunk& chunk) const {
-    const ShadowPlanesJob job{scene_,
-                              table.light,
-                              table.planes.data(),
-                              table.hides.data(),
+    const ShadowPlanesJob job{scene_, table.light, table.planes.data(), table.hides.data(),
                               scene_.scene().lights[light]};
     make_shadow_planes(job, chunk, isa_);
 }
@@ -150,7 +147,7 @@ void ShadowTables::take_quadrics(QuadricSpan quadrics) {
     }
 }
 
-Quadric ShadowTables::quadric_of(const Shape& shape) const {
+LocalSphere ShadowTables::quadric_of(const Shape& shape) const {
     const LocalFrame& frame = scene_.frame();
     Point3 center;
     double radius = 0;
@@ -162,8 +159,7 @@ Quadric ShadowTables::quadric_of(const Shape& shape) const {
         center = ellipsoid.center;
         radius = radius_around(ellipsoid, frame.scale, touch_);
     }
-    const Vec3<float> local(frame.local(center));
-    return {{local.x, local.y, local.z}, static_cast<float>(radius)};
+    return {Vec3<float>(frame.local(center)), static_cast<float>(radius)};
 }
 
 bool ShadowTables::outside_of_all(const LightPoint& light) const {
@@ -187,11 +183,11 @@ void ShadowTables::forget_outside(ShadowTable& table) {
         table.quadric_sides.clear();
 }
 
-LightSide ShadowTables::side(const LightPoint& light, const Quadric& shape,
+LightSide ShadowTables::side(const LightPoint& light, const LocalSphere& shape,
                              const Object& object) const {
     if (!object.casts_shadow) return LightSide::kBlind;
     if (!light.finite) return LightSide::kUnknown;
-    const Vector3 from{shape.center[0], shape.center[1], shape.center[2]};
+    const Vector3 from(shape.center);
     const double distance = length(from * light.weight - light.toward);
     const double radius = shape.radius * light.weight;
     const double error = quadric_touch_ + kQuadricError * size_of(shape);
@@ -208,7 +204,7 @@ bool ShadowTables::complete() const {
 }
 
 std::size_t ShadowTables::memory_bytes() const {
-    std::size_t bytes = quadrics_.size() * sizeof(Quadric);
+    std::size_t bytes = quadrics_.size() * sizeof(LocalSphere);
     for (const ShadowTable& table : tables_)
         bytes += table.slots.size() * sizeof(Slot) + table.planes.size() * sizeof(ShadowPlanes) +
                  table.hides.size() + table.quadric_sides.size() * sizeof(LightSide) +

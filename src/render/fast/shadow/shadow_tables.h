@@ -58,7 +58,7 @@ class ShadowTables {
     InstructionSet isa() const { return isa_; }
     /// Of light i; empty where it casts no shadow.
     const ShadowTable& table(std::size_t light) const { return tables_[light]; }
-    const Quadric& quadric(Slot slot) const { return quadrics_[slot - scene_.triangle_end()]; }
+    const LocalSphere& quadric(Slot slot) const { return quadrics_[slot - scene_.triangle_end()]; }
     bool has_quadrics() const { return !quadrics_.empty(); }
     /// Whether points that were not wanted can be looked up, too.
     bool complete() const;
@@ -85,8 +85,8 @@ class ShadowTables {
     static void forget_outside(ShadowTable& table);
     /// Whether the light is a direction or stands where the scene surely does not reach.
     bool outside_of_all(const LightPoint& light) const;
-    Quadric quadric_of(const Shape& shape) const;
-    LightSide side(const LightPoint& light, const Quadric& shape, const Object& object) const;
+    LocalSphere quadric_of(const Shape& shape) const;
+    LightSide side(const LightPoint& light, const LocalSphere& shape, const Object& object) const;
 
     const FastScene& scene_;
     InstructionSet isa_;
@@ -95,7 +95,7 @@ class ShadowTables {
     float dense_;
     float plane_error_;
     float quadric_touch_;
-    BigVector<Quadric> quadrics_;
+    BigVector<LocalSphere> quadrics_;
     std::vector<ShadowTable> tables_;
 };
 

@@ -10,8 +10,8 @@ void WalkPlanes::make(Batch& batch, std::size_t light, Slot first) {
     // Written from place 0 on.
     chunk_.last -= chunk_.first;
     chunk_.first = 0;
-    make_shadow_planes({scene, tables_.table(light).light, batch.planes,
-                        &batch.hides, scene.scene().lights[light]},
+    make_shadow_planes({scene, tables_.table(light).light, batch.planes, &batch.hides,
+                        scene.scene().lights[light]},
                        chunk_, tables_.isa());
     batch.first = first;
     batch.light = light;

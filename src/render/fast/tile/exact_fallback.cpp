@@ -1,6 +1,5 @@
 #include "fast/tile/exact_fallback.h"
 
-#include <cmath>
 #include <limits>
 
 namespace nuvo {

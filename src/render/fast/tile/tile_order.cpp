@@ -1,7 +1,5 @@
 #include "fast/tile/tile_order.h"
 
-#include <bit>
-
 namespace nuvo {
 namespace {
 
