@@ -60,6 +60,40 @@ TEST(FastFaults, SmoothTrianglesThatAllButHoldTheEyeAreLit) {
         {{200, 120}});
 }
 
+// Directions at the picture's edge whose squares are beyond floats, of spheres and, stretched, of
+// ellipsoids.
+TEST(FastFaults, QuadricsAroundTheEyeAreSeenAtAnyFieldOfView) {
+    const std::string nearly_half = "fieldOfView='3.1415926535897927'/>";
+    expect_identical(
+        read("<Viewpoint position='0 0.6 0' " + nearly_half +
+             "<DirectionalLight direction='1 1 0'/><DirectionalLight direction='-1 1 0'/>" +
+             lit_shape("<Sphere solid='false'/>")),
+        {{6000, 1}});
+    expect_identical(read("<Viewpoint position='0 0.6 0' " + nearly_half +
+                          "<PointLight location='0 1e30 0' radius='1e37' ambientIntensity='1'/>" +
+                          lit_shape("<Sphere solid='false'/>", "ambientIntensity='1'")),
+                     {{6000, 1}});
+    for (const char* scale : {"0.01 1 1", "0.02 1 1", "1 0.01 1"})
+        expect_identical(
+            read("<Viewpoint position='0 0 0' " + nearly_half +
+                 placed("scale='" + std::string(scale) + "'",
+                        lit_shape("<Sphere solid='false'/>", "emissiveColor='1 0 0'"))),
+            {{256, 1}, {3000, 1}, {1, 512}});
+}
+
+// A limit that no float is near: only on the axis itself there is light.
+TEST(FastFaults, ASpotNarrowerThanFloatsLightsItsAxis) {
+    for (const char* angle : {"1e-44", "7e-46", "1e-50", "1e-310"})
+        expect_identical(
+            read("<Viewpoint position='0 0 10'/><SpotLight location='0 0 5' direction='0 0 -1' "
+                 "beamWidth='0' radius='100' cutOffAngle='" +
+                 std::string(angle) + "'/>" +
+                 lit_shape(
+                     "<IndexedFaceSet coordIndex='0 1 2 3 -1'><Coordinate point='-3 -3 0 3 -3 0 3 "
+                     "3 0 -3 3 0'/></IndexedFaceSet>")),
+            {{5, 5}});
+}
+
 /// An ellipsoid before a floor and a wall, and a lamp near it, in it or behind.
 Scene thin_ellipsoid_scene(std::uint64_t seed) {
     std::mt19937_64 random(seed);

@@ -113,12 +113,14 @@ TEST(VectorMath, ArcsStayWithinTheirBound) {
     }
 }
 
-TEST(VectorMath, RootsOfNothingAndOfInfinityAreUnknown) {
+TEST(VectorMath, InversesOfInfinityAreUnknown) {
     for (const InstructionSet isa : supported_instruction_sets()) {
         float x[kLanes] = {0, std::numeric_limits<float>::infinity()};
         float y[kLanes];
         NUVO_FOR_ISA(isa, inverse_roots)(x, y);
         for (const float root : y) EXPECT_TRUE(std::isnan(root)) << static_cast<int>(isa);
+        NUVO_FOR_ISA(isa, reciprocals)(x, y);
+        EXPECT_TRUE(std::isnan(y[1])) << static_cast<int>(isa);
     }
 }
 

@@ -344,7 +344,7 @@ class PrimaryTracer {
         const Candidates found(tile_, b, hits.low, hits.high);
         RayMask sure = (discriminant > Floats(conics_.error(i))) & found.surely_nearer;
         RayMask open = without(perhaps & found.perhaps_nearer, sure);
-        if (s.exactly) {
+        if (s.exactly || !conics_.known(i)) {
             sure = RayMask::from_bits(0);
             open = perhaps;
         } else if (!job_.redo_exactly) {

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "fast/camera/camera_tables.h"
 #include "fast/primary/primary_lanes.h"
@@ -72,6 +73,8 @@ class SphereConics {
     }
     /// Of the discriminant.
     float error(std::size_t i) const { return error_[i]; }
+    /// Whether floats hold the numbers of sphere i.
+    bool known(std::size_t i) const { return error_[i] <= std::numeric_limits<float>::max(); }
     /// Of its root, at most.
     float root_error(std::size_t i) const { return root_error_[i]; }
 
@@ -121,18 +124,21 @@ class SphereConics {
         const Floats d_xx = gap(right, right, x, x);
         const Floats d_xy = two * gap(right, down, x, y);
         const Floats d_yy = gap(down, down, y, y);
-        d.store(constant_);
-        d_x.store(x_);
-        d_y.store(y_);
-        d_xx.store(xx_);
-        d_xy.store(xy_);
-        d_yy.store(yy_);
         const Floats m(kHalfTile);
         const Floats size =
             mul_add(mul_add(abs(d_xx) + abs(d_xy) + abs(d_yy), m, abs(d_x) + abs(d_y)), m, abs(d));
+        // Beyond floats no sum of its terms means anything; NaN is beyond, too.
+        const RayMask known = size < Floats(kLargest);
+        const Floats zero(0.0F);
+        select(known, d, zero).store(constant_);
+        select(known, d_x, zero).store(x_);
+        select(known, d_y, zero).store(y_);
+        select(known, d_xx, zero).store(xx_);
+        select(known, d_xy, zero).store(xy_);
+        select(known, d_yy, zero).store(yy_);
         const Doubles longest =
             length(center) + Doubles(kHalfTile) * (length(right) + length(down));
-        set_error(floats_from(longest * longest), size, floats_from(r_square), cross_error);
+        set_error(floats_from(longest * longest), size, floats_from(r_square), cross_error, known);
         const Floats b = floats_from(dot(f, center));
         const Floats b_x = floats_from(dot(f, right));
         const Floats b_y = floats_from(dot(f, down));
@@ -168,16 +174,19 @@ class SphereConics {
     // <= 2 u s + c^2 (1 / u + 3) for any u; and the double stage some 2^-47 of both, a ball's map
     // 2^-30. `square` bounds |d|^2.
     HWY_INLINE void set_error(const Floats& square, const Floats& size, const Floats& r_square,
-                              const Floats& cross_error) {
+                              const Floats& cross_error, const RayMask& known) {
         const Floats s = mul_add(r_square, square, size);
         const Floats c = cross_error * Floats(2 / kRootOfRoundoff);
-        const Floats error =
+        const Floats sum =
             mul_add(s, Floats(roundings(4)), c * c) +
             mul_add(size, Floats(roundings(9)), Floats(static_cast<float>(kFloatUnderflow)));
+        const Floats error = select(known & (sum < Floats(kLargest)), sum,
+                                    Floats(std::numeric_limits<float>::infinity()));
         error.store(error_);
         (sqrt(error + error) * Floats(1 + roundings(4))).store(root_error_);
     }
     static constexpr float kRootOfRoundoff = 0x1p-12F;
+    static constexpr float kLargest = 0x1p120F;
 
     alignas(64) float constant_[kMost];
     alignas(64) float x_[kMost];

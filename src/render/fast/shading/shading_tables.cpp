@@ -198,6 +198,9 @@ void aim_spot(const Light& exact, ShadingLight& light) {
     if (exact.direction == Vector3{}) light.dead = true;
     for (int axis = 0; axis < 3; ++axis) light.axis[axis] = rounded(exact.direction[axis]);
     light.cut_off = rounded(exact.cut_off_angle);
+    // Never 0 unless it is: there is an inside then.
+    if (exact.cut_off_angle > 0)
+        light.cut_off = std::max(light.cut_off, std::numeric_limits<float>::min());
     light.inverse_width = exact.beam_width < exact.cut_off_angle
                               ? rounded(1 / (exact.cut_off_angle - exact.beam_width))
                               : std::numeric_limits<float>::infinity();

@@ -37,8 +37,9 @@ HWY_INLINE Floats inverse_sqrt(const Floats& v) {
 #endif
 }
 
-/// 1 / v within kReciprocalError, relatively, of floats with normal reciprocals: the same with
-/// AVX-512's estimate of the reciprocal, whose step leaves 2^-28; elsewhere a quotient.
+/// 1 / v within kReciprocalError, relatively, of floats with normal reciprocals, of infinity NaN:
+/// the same with AVX-512's estimate of the reciprocal, whose step leaves 2^-28; elsewhere a
+/// quotient.
 HWY_INLINE Floats reciprocal(const Floats& v) {
 #if HWY_TARGET == HWY_AVX3
     Floats out;
@@ -48,7 +49,7 @@ HWY_INLINE Floats reciprocal(const Floats& v) {
     }
     return out;
 #else
-    return Floats(1.0F) / v;
+    return Floats(1.0F) / v + (v - v);
 #endif
 }
 
