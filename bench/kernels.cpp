@@ -162,7 +162,7 @@ void single_rays(benchmark::State& state, const char* file) {
         const Ray ray = random.ray();
         rays.push_back({box.min + ray.origin * box.widths(), ray.direction});
     }
-    const FastTracer tracer(scene, primitives, {});
+    FastTracer tracer(scene, primitives, {});
     for (auto _ : state) benchmark::DoNotOptimize(tracer.closest_hits(rays));
     state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations() * kPairs));
 }

@@ -82,9 +82,7 @@ class TileRun {
           tracer_(scene, primitives_, options_) {}
 
     Image picture(Resolution resolution) { return tracer_.render(resolution); }
-    std::vector<RayAnswer> answers(std::span<const Ray> rays) const {
-        return tracer_.closest_hits(rays);
-    }
+    std::vector<RayAnswer> answers(std::span<const Ray> rays) { return tracer_.closest_hits(rays); }
     void describe(Pass& pass, const Options&) const {
         pass.name = name_of(kOctreeTypes, tracer_.octree_type());
         pass.memory.primitives = memory_bytes(primitives_);
@@ -159,7 +157,7 @@ Pass answer_once(const Scene& scene, const Options& options, std::span<const Ray
     pass.name = name_of(kOctreeTypes, options.profile.type);
     const ProcessStopwatch process;
     const StageStopwatch build;
-    const Run run(scene, options, options.profile, meter);
+    Run run(scene, options, options.profile, meter);
     note(pass.build_seconds, pass.build_wall_seconds, build);
     pass.memory.peak_building = peak_memory_bytes();
     meter.begin("answering");

@@ -120,7 +120,7 @@ class Checker {
         if (rays_.empty()) return;
         brute_force_rays();
         for (const Walked& walked : walked_) serial_rays(walked);
-        for (const auto& [name, tracer] : tracers_) {
+        for (auto& [name, tracer] : tracers_) {
             listener_.stage(name + " rays", seconds_allowed());
             compare(name + " rays", tracer.closest_hits(rays_));
         }

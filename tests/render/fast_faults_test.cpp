@@ -268,7 +268,7 @@ TEST(FastFaults, RaysFromAnywhereEnd) {
         const std::vector<RayAnswer> expected =
             closest_hits(scene, primitives, nullptr, exact_profile(), rays);
         for (const InstructionSet isa : supported_instruction_sets()) {
-            const FastTracer tracer(scene, primitives, {OctreeType::kUniform, 1, isa});
+            FastTracer tracer(scene, primitives, {OctreeType::kUniform, 1, isa});
             const std::vector<RayAnswer> found = tracer.closest_hits(rays);
             for (std::size_t i = 0; i < rays.size(); ++i) {
                 EXPECT_EQ(found[i].hit, expected[i].hit) << size << " ray " << i;

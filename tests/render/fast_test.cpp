@@ -202,7 +202,7 @@ TEST(Fast, RaysAreAnsweredAsTheSerialTracerAnswers) {
         const auto expected = closest_hits(scene, primitives, nullptr, exact_profile(), rays);
         for (const OctreeType type : kTypes)
             for (const InstructionSet isa : supported_instruction_sets()) {
-                const FastTracer tracer(scene, primitives, {type, 1, isa});
+                FastTracer tracer(scene, primitives, {type, 1, isa});
                 const auto answers = tracer.closest_hits(rays);
                 ASSERT_EQ(answers.size(), expected.size());
                 for (std::size_t k = 0; k < rays.size(); ++k) {

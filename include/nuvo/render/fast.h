@@ -74,8 +74,8 @@ class FastTracer {
     /// Adds to `times` if it is given, at a small cost. Between two pictures the scene's camera and
     /// lights may change, nothing else.
     Image render(Resolution resolution, FastTimes* times = nullptr);
-    /// The closest hit of each ray, as closest_hits() answers it.
-    std::vector<RayAnswer> closest_hits(std::span<const Ray> rays) const;
+    /// The closest hit of each ray, as closest_hits() answers it. Keeps tables for the next calls.
+    std::vector<RayAnswer> closest_hits(std::span<const Ray> rays);
 
     /// Counted in a run of its own, by the exact profile's decisions, so that it does not depend on
     /// what the float stages leave open.

@@ -53,7 +53,7 @@ Image FastTracer::render(Resolution resolution, FastTimes* times) {
     return image;
 }
 
-std::vector<RayAnswer> FastTracer::closest_hits(std::span<const Ray> rays) const {
+std::vector<RayAnswer> FastTracer::closest_hits(std::span<const Ray> rays) {
     if (!state_->fast.is_ordinary())
         return state_->serial.closest_hits(rays, state_->options.progress);
     std::unique_ptr<SingleRays>& single = state_->single;

@@ -32,7 +32,7 @@ class InterleavedRays {
     /// At a time: more would fall out of the first cache.
     static constexpr std::size_t kInterleaved = 16;
 
-    explicit InterleavedRays(const SingleRays& rays) : rays_(rays), tree_(rays.tree()) {}
+    explicit InterleavedRays(SingleRays& rays) : rays_(rays), tree_(rays.tree()) {}
 
     /// At most kRayBatch rays; found[i] takes what ray i meets first, or kNoSlot.
     void run(std::span<const Ray> batch, Slot* found) {
@@ -297,7 +297,7 @@ class InterleavedRays {
         found_[state.index] = state.candidate_count == 0 ? kNoSlot : state.candidates[0].slot;
     }
 
-    const SingleRays& rays_;
+    SingleRays& rays_;
     const WideOctree& tree_;
     std::span<const Ray> batch_;
     Slot* found_ = nullptr;

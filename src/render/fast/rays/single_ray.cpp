@@ -16,7 +16,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace nuvo::HWY_NAMESPACE {
 
-std::size_t walk_rays(const SingleRays& rays, std::span<const Ray> all, bool may_give_up,
+std::size_t walk_rays(SingleRays& rays, std::span<const Ray> all, bool may_give_up,
                       RayAnswer* answers) {
     const auto interleaved = std::make_unique<InterleavedRays>(rays);
     std::array<Slot, kRayBatch> found;
@@ -54,7 +54,7 @@ SingleRays::SingleRays(const FastScene& scene, InstructionSet isa, bool redo_exa
 }
 
 std::vector<RayAnswer> SingleRays::closest_hits(std::span<const Ray> rays, Progress* progress,
-                                                SerialTree* serial) const {
+                                                SerialTree* serial) {
     constexpr std::size_t kTold = 64 * kRayBatch;
     std::vector<RayAnswer> answers(rays.size());
     begin(progress, "rays", rays.size());
@@ -74,7 +74,7 @@ std::vector<RayAnswer> SingleRays::closest_hits(std::span<const Ray> rays, Progr
 }
 
 std::optional<RayCandidate> SingleRays::decide(const Ray& ray, const LocalRay& local,
-                                               std::span<const RayCandidate> candidates) const {
+                                               std::span<const RayCandidate> candidates) {
     tests_ += candidates.size();
     std::array<Slot, RayState::kMaxCandidates> slots;
     std::size_t count = 0;
@@ -93,8 +93,7 @@ std::optional<RayCandidate> SingleRays::decide(const Ray& ray, const LocalRay& l
                         true};
 }
 
-std::optional<SingleRays::Nearest> SingleRays::nearest_of(const Ray& ray,
-                                                          std::span<Slot> slots) const {
+std::optional<SingleRays::Nearest> SingleRays::nearest_of(const Ray& ray, std::span<Slot> slots) {
     static_assert(RayState::kMaxCandidates <= PairRoots::kCount);
     const auto triangles = static_cast<std::size_t>(
         std::lower_bound(slots.begin(), slots.end(), scene_.triangle_end()) - slots.begin());
@@ -120,7 +119,7 @@ std::optional<SingleRays::Nearest> SingleRays::nearest_of(const Ray& ray,
     return exactly_nearest_of(ray, slots.first(left));
 }
 
-bool SingleRays::coplanar(Slot first, Slot second) const {
+bool SingleRays::coplanar(Slot first, Slot second) {
     return coplanar_.of({first, second}, [&] {
         return nuvo::coplanar(scene_.triangle(first), scene_.triangle(second), counts_);
     });
@@ -235,7 +234,7 @@ void SingleRays::answer(std::span<const Ray> rays, const Slot* found, RayAnswer*
     finish(spheres, &PairRootStage::find_spheres);
 }
 
-Slot SingleRays::brute_force(const Ray& ray) const {
+Slot SingleRays::brute_force(const Ray& ray) {
     tests_ += scene_.slot_end();
     std::vector<Slot> slots(scene_.slot_end());
     std::iota(slots.begin(), slots.end(), Slot{0});

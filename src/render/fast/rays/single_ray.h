@@ -36,7 +36,7 @@ class SingleRays {
     /// What closest_hits() of the exact profile answers. Where floats leave most to exact tests the
     /// rest is left to the serial tracer, if there is one.
     std::vector<RayAnswer> closest_hits(std::span<const Ray> rays, Progress* progress = nullptr,
-                                        SerialTree* serial = nullptr) const;
+                                        SerialTree* serial = nullptr);
 
     /// Asking for memory ahead pays where the second cache cannot hold the scene, and costs little
     /// where it can. With nodes and leaves below this the first one nearly does.
@@ -55,9 +55,9 @@ class SingleRays {
     }
     /// The nearest of the candidates by exact arithmetic, if any is met.
     std::optional<RayCandidate> decide(const Ray& ray, const LocalRay& local,
-                                       std::span<const RayCandidate> candidates) const;
+                                       std::span<const RayCandidate> candidates);
     /// The nearest primitive among all; kNoSlot: none.
-    Slot brute_force(const Ray& ray) const;
+    Slot brute_force(const Ray& ray);
     /// The answers to rays of which found[i] is known to be what ray i meets first.
     void answer(std::span<const Ray> rays, const Slot* found, RayAnswer* answers) const;
 
@@ -77,10 +77,10 @@ class SingleRays {
     double root_of(const Ray& ray, Slot slot) const;
     /// The nearest of different slots, which ascend; changes them. By vectors of doubles where
     /// these are sure.
-    std::optional<Nearest> nearest_of(const Ray& ray, std::span<Slot> slots) const;
+    std::optional<Nearest> nearest_of(const Ray& ray, std::span<Slot> slots);
     std::optional<Nearest> exactly_nearest_of(const Ray& ray, std::span<const Slot> slots) const;
     /// Whether both triangles lie in one plane.
-    bool coplanar(Slot first, Slot second) const;
+    bool coplanar(Slot first, Slot second);
     // As a function of its own g++ takes it for one without effects, and leaves it out.
     [[gnu::always_inline]] void prefetch(std::span<const Slot> found) const;
     void set_triangle(PairRoots& roots, std::size_t i, const Ray& ray,
@@ -95,11 +95,11 @@ class SingleRays {
     std::vector<MeshPlace> meshes_;  // by object
     PairRootStage roots_;
     float bounds_scale_;
-    std::size_t (*walk_)(const SingleRays&, std::span<const Ray>, bool, RayAnswer*);
-    mutable PairCache<bool> coplanar_;
-    mutable StageCounts counts_;       // of coplanar()
-    mutable std::uint64_t rays_ = 0;   // answered
-    mutable std::uint64_t tests_ = 0;  // exact ones
+    std::size_t (*walk_)(SingleRays&, std::span<const Ray>, bool, RayAnswer*);
+    PairCache<bool> coplanar_;
+    StageCounts counts_;       // of coplanar()
+    std::uint64_t rays_ = 0;   // answered
+    std::uint64_t tests_ = 0;  // exact ones
 };
 
 }  // namespace nuvo
