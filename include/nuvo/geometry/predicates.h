@@ -379,6 +379,9 @@ inline bool blocks(const ExactRay& shadow, double end, double origin_error, cons
 bool blocks(const ExactRay& shadow, double end, double origin_error, const Ellipsoid& ellipsoid,
             bool origin_on_it, StageCounts& counts, Sides sides = Sides::kBoth);
 
+/// Whether the corners of `b` lie in the plane of `a`: every ray that meets both does so at one t.
+bool coplanar(const Triangle& a, const Triangle& b, StageCounts& counts);
+
 /// No ray from `eye` that meets both triangles meets `other` before `front`, nor, unless `front`
 /// wins where they are met together, at the same t. False: not known.
 bool hides(const Triangle& front, const Point3& eye, const Triangle& other, bool wins_ties,
@@ -388,9 +391,6 @@ struct LightPlace {
     Vector3 at;    ///< a point; endless: the direction to the light
     bool endless;  ///< infinitely far away
 };
-/// Whether the corners of `b` lie in the plane of `a`: every ray that meets both does so at one t.
-bool coplanar(const Triangle& a, const Triangle& b, StageCounts& counts);
-
 /// `other` blocks no way from a rounded point of `lit` to the light: it leaves all of `lit` on the
 /// light's side. False: not known.
 bool leaves_in_light(const Triangle& other, const Triangle& lit, const LightPlace& light,

@@ -127,8 +127,12 @@ class SphereConics {
         const Floats m(kHalfTile);
         const Floats size =
             mul_add(mul_add(abs(d_xx) + abs(d_xy) + abs(d_yy), m, abs(d_x) + abs(d_y)), m, abs(d));
-        // Beyond floats no sum of its terms means anything; NaN is beyond, too.
-        const RayMask known = size < Floats(kLargest);
+        const Doubles longest =
+            length(center) + Doubles(kHalfTile) * (length(right) + length(down));
+        const Floats error =
+            error_of(floats_from(longest * longest), size, floats_from(r_square), cross_error);
+        // Beyond floats no sum of the terms, at most 2^21 errors, means anything; nor of NaN.
+        const RayMask known = error < Floats(kLargest);
         const Floats zero(0.0F);
         select(known, d, zero).store(constant_);
         select(known, d_x, zero).store(x_);
@@ -136,9 +140,9 @@ class SphereConics {
         select(known, d_xx, zero).store(xx_);
         select(known, d_xy, zero).store(xy_);
         select(known, d_yy, zero).store(yy_);
-        const Doubles longest =
-            length(center) + Doubles(kHalfTile) * (length(right) + length(down));
-        set_error(floats_from(longest * longest), size, floats_from(r_square), cross_error, known);
+        const Floats bound = select(known, error, Floats(std::numeric_limits<float>::infinity()));
+        bound.store(error_);
+        (sqrt(bound + bound) * Floats(1 + roundings(4))).store(root_error_);
         const Floats b = floats_from(dot(f, center));
         const Floats b_x = floats_from(dot(f, right));
         const Floats b_y = floats_from(dot(f, down));
@@ -173,20 +177,15 @@ class SphereConics {
     // size + |d|^2 r^2 =: s; an error c of f x d on each axis adds at most 3.5 c |f x d| + 3 c^2
     // <= 2 u s + c^2 (1 / u + 3) for any u; and the double stage some 2^-47 of both, a ball's map
     // 2^-30. `square` bounds |d|^2.
-    HWY_INLINE void set_error(const Floats& square, const Floats& size, const Floats& r_square,
-                              const Floats& cross_error, const RayMask& known) {
+    static HWY_INLINE Floats error_of(const Floats& square, const Floats& size,
+                                      const Floats& r_square, const Floats& cross_error) {
         const Floats s = mul_add(r_square, square, size);
         const Floats c = cross_error * Floats(2 / kRootOfRoundoff);
-        const Floats sum =
-            mul_add(s, Floats(roundings(4)), c * c) +
-            mul_add(size, Floats(roundings(9)), Floats(static_cast<float>(kFloatUnderflow)));
-        const Floats error = select(known & (sum < Floats(kLargest)), sum,
-                                    Floats(std::numeric_limits<float>::infinity()));
-        error.store(error_);
-        (sqrt(error + error) * Floats(1 + roundings(4))).store(root_error_);
+        return mul_add(s, Floats(roundings(4)), c * c) +
+               mul_add(size, Floats(roundings(9)), Floats(static_cast<float>(kFloatUnderflow)));
     }
     static constexpr float kRootOfRoundoff = 0x1p-12F;
-    static constexpr float kLargest = 0x1p120F;
+    static constexpr float kLargest = 0x1p96F;
 
     alignas(64) float constant_[kMost];
     alignas(64) float x_[kMost];

@@ -53,17 +53,14 @@ LocalItems local_items(const FastScene& fast, int threads) {
     const InstructionSet isa = resolved(InstructionSet::kBest);
     for_each_chunk(fast, threads,
                    [&](const TriangleChunk& chunk) { make_local_triangles(job, chunk, isa); });
-    const auto put = [&](const QuadricSlot& quadric) {
-        items.boxes[quadric.slot] =
-            local_box(fast.frame(), fast.primitives().item_boxes[quadric.id]);
-        if (quadric.slot >= fast.sphere_end()) return;
-        items.spheres[quadric.slot - fast.triangle_end()] =
-            fast.local(std::get<Sphere>(fast.object(quadric.id).shape));
-    };
     for_each_part(threads, fast.quadrics().size(), [&](std::size_t begin, std::size_t end) {
         for (const QuadricSlot& quadric : fast.quadrics().subspan(begin, end - begin)) {
             fast.prefetched_after(quadric);
-            put(quadric);
+            items.boxes[quadric.slot] =
+                local_box(fast.frame(), fast.primitives().item_boxes[quadric.id]);
+            if (quadric.slot < fast.sphere_end())
+                items.spheres[quadric.slot - fast.triangle_end()] =
+                    fast.local(std::get<Sphere>(fast.object(quadric.id).shape));
         }
     });
     return items;

@@ -20,6 +20,10 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kLightsWithCosines = 8;
 
 float rounded(double value) { return static_cast<float>(value); }
+// Never 0 unless it is.
+float rounded_off_zero(double value) {
+    return value > 0 ? std::max(rounded(value), std::numeric_limits<float>::min()) : rounded(value);
+}
 double largest(const Color& c) { return std::max(c.x, std::max(c.y, c.z)); }
 bool is_gray(const Color& c) { return c.x == c.y && c.y == c.z; }
 
@@ -60,10 +64,9 @@ ShadingMaterial shading_material(const Material& m) {
     out.diffuse_most = rounded_up(largest(m.diffuse_color) * kFullByte);
     out.specular_most = rounded_up(largest(m.specular_color) * kFullByte);
     out.ambient = rounded(m.ambient_intensity);
-    // Never 0 unless it is: 0^0 is 1, and 0 to any other power 0. All exponents below the least
-    // normal number give 1 to the last bit where the cosine is surely positive.
-    out.exponent = rounded(128 * m.shininess);
-    if (m.shininess > 0) out.exponent = std::max(out.exponent, std::numeric_limits<float>::min());
+    // 0^0 is 1, and 0 to any other power 0. All exponents below the least normal number give 1 to
+    // the last bit where the cosine is surely positive.
+    out.exponent = rounded_off_zero(128 * m.shininess);
     return out;
 }
 
@@ -197,10 +200,7 @@ void place_light(const ShadingTables& tables, const Light& exact, ShadingLight& 
 void aim_spot(const Light& exact, ShadingLight& light) {
     if (exact.direction == Vector3{}) light.dead = true;
     for (int axis = 0; axis < 3; ++axis) light.axis[axis] = rounded(exact.direction[axis]);
-    light.cut_off = rounded(exact.cut_off_angle);
-    // Never 0 unless it is: there is an inside then.
-    if (exact.cut_off_angle > 0)
-        light.cut_off = std::max(light.cut_off, std::numeric_limits<float>::min());
+    light.cut_off = rounded_off_zero(exact.cut_off_angle);  // above 0 there is an inside
     light.inverse_width = exact.beam_width < exact.cut_off_angle
                               ? rounded(1 / (exact.cut_off_angle - exact.beam_width))
                               : std::numeric_limits<float>::infinity();

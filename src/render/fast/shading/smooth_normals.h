@@ -103,7 +103,7 @@ class SmoothNormalLanes {
             if (slot < scene_.triangle_end())
                 fill_triangle(slot);
             else
-                fill_quadrics(slot, tables_.quadrics.seen(slot));
+                fill_quadric(slot, tables_.quadrics.seen(slot));
         }
         if (smooth_bits_ != 0) finish_smooth();
     }
@@ -311,7 +311,7 @@ class SmoothNormalLanes {
                 tables_.triangles.smooth[slot - tables_.triangles.smooth_offsets[source.object]]);
     }
 
-    HWY_INLINE void fill_quadrics(Slot slot, const SeenQuadric& seen) {
+    HWY_INLINE void fill_quadric(Slot slot, const SeenQuadric& seen) {
         if (!tables_.uniform) {
             const SurfaceWord word = tables_.material_words[seen.sphere->material];
             Ints(word).store(scratch_.word + first_, mask_for<std::int32_t>(lanes_));
