@@ -13,6 +13,7 @@
 #include "fast/camera/corner_fetch.h"
 #include "fast/camera/pixel_box_lanes.h"
 #include "fast/primary/box_culling.h"
+#include "fast/primary/depth_pyramid.h"
 #include "fast/primary/frustum.h"
 #include "fast/primary/primary_lanes.h"
 #include "fast/primary/sphere_lanes.h"
@@ -20,22 +21,49 @@
 #include "fast/simd/lanes.h"
 #include "nuvo/math/error_bounds.h"
 
-// A macro tile's nearest hits form a pyramid: of each lane, of each block, of each tile and of all.
-// Voxels, items and blocks that cannot be nearer are left out by it. Triangles are made ready 16 at
-// a time when their leaves are met: floats tell most of those that cannot show; of the others come
-// first pixel boxes, then, of batches that still matter, edge functions. They are tested as a
-// rasterizer tests them: coarse, against 16 blocks of pixels at once, unless they show in a few
-// blocks only; then fine, 16 pixels at once (Abrash 2009, "Rasterization on Larrabee"). Spheres
-// wait by tile, for their functions are those of a tile. Whatever a float within its bound leaves
-// open, the exact fallback decides at once.
+// Voxels, items and blocks that cannot be nearer than what a macro tile shows are left out by a
+// pyramid of its depths. Triangles are made ready 16 at a time when their leaves are met: floats
+// tell most of those that cannot show; of the others come first pixel boxes, then, of batches that
+// still matter, edge functions. They are tested as a rasterizer tests them: coarse, against 16
+// blocks of pixels at once, unless they show in a few blocks only; then fine, 16 pixels at once
+// (Abrash 2009, "Rasterization on Larrabee"). Spheres wait by tile, for their functions are those
+// of a tile. Whatever a float within its bound leaves open, the exact fallback decides at once.
 
 HWY_BEFORE_NAMESPACE();
 namespace nuvo::HWY_NAMESPACE {
 
 using Floats4 = Lanes<float, 4>;
 
+// The lanes of a tile's block that lie in a picture of that size from the tile on.
+std::uint32_t lanes_inside(int b, int width, int height) {
+    if (width >= kTileSide && height >= kTileSide) return 0xffff;
+    std::uint32_t inside = 0;
+    for (int lane = 0; lane < kBlockLanes; ++lane) {
+        const int at = b * kBlockLanes + lane;
+        if (lane_x(at) < width && lane_y(at) < height) inside |= 1U << lane;
+    }
+    return inside;
+}
+
+// Shows nothing; lanes outside of the picture get a hit nearer than any.
+void clear(MacroTile& tile, Resolution picture) {
+    const Floats outside(std::numeric_limits<float>::infinity());
+    const Ints none(kNoSlot);
+    for (int b = 0; b < MacroTile::kBlocks; ++b) {
+        const int t = b / kTileBlocks;
+        const std::uint32_t inside = lanes_inside(b % kTileBlocks, picture.width - tile.tile_x(t),
+                                                  picture.height - tile.tile_y(t));
+        tile.inside[b] = static_cast<std::uint16_t>(inside);
+        const Floats near = select(RayMask::from_bits(inside), Floats(0.0F), outside);
+        near.store(tile.near_low + b * kBlockLanes);
+        near.store(tile.near_high + b * kBlockLanes);
+        none.store(tile.slot + b * kBlockLanes);
+    }
+}
+
 class PrimaryTracer {
   public:
+    /// Of a tile that was cleared.
     PrimaryTracer(PrimaryJob& job, MacroTile& tile, MacroQuadrics* quadrics)
         : job_(job),
           tile_(tile),
@@ -44,9 +72,8 @@ class PrimaryTracer {
           culling_(tile),
           box_maker_(job.camera),
           triangle_maker_(view_),
-          corners_(job.scene) {
-        clear();
-    }
+          corners_(job.scene),
+          pyramid_(tile) {}
 
     void run() {
         const CompactOctree& octree = job_.scene.octree();
@@ -58,7 +85,8 @@ class PrimaryTracer {
         job_.mailbox.start();
         walk_frustum(
             octree, frustum,
-            [&](BlockRange range, float nearest) HWY_ATTR { return is_open(range, nearest); },
+            [&](BlockRange range, float nearest)
+                HWY_ATTR { return pyramid_.is_open(range, nearest); },
             [&](const std::uint32_t* items, std::uint32_t count) HWY_ATTR {
                 for (std::uint32_t i = 0; i < count; ++i) {
                     if (job_.mailbox.seen(items[i])) continue;
@@ -77,71 +105,18 @@ class PrimaryTracer {
     }
 
   private:
-    static constexpr float kInfinity = std::numeric_limits<float>::infinity();
     static constexpr std::size_t kBatch = BoxCulling::kBatch;
     static_assert(kBatch == CulledTriangles::kBatch && kBatch == CornerFetch::kBatch &&
                   kBatch == SphereConics::kMost);
     // Up to so many blocks are tested one by one: from 2 to 7 the time was the same.
     static constexpr int kFewBlocks = 4;
-    const Ints none_{kNoSlot};
-
-    // Lanes outside of the picture get a hit nearer than any.
-    void clear() {
-        const int width = job_.camera.resolution.width;
-        const int height = job_.camera.resolution.height;
-        for (int b = 0; b < MacroTile::kBlocks; ++b) {
-            const int t = b / kTileBlocks;
-            const std::uint32_t inside =
-                lanes_inside(b % kTileBlocks, width - tile_.tile_x(t), height - tile_.tile_y(t));
-            tile_.inside[b] = static_cast<std::uint16_t>(inside);
-            const Floats near = select(RayMask::from_bits(inside), Floats(0.0F), Floats(kInfinity));
-            near.store(tile_.near_low + b * kBlockLanes);
-            near.store(tile_.near_high + b * kBlockLanes);
-            block_near_[b] = inside != 0 ? 0 : kInfinity;
-            none_.store(slots(b));
-        }
-        for (int t = 0; t < MacroTile::kTiles; ++t) update_tile(t);
-        macro_near_ = lowest(Floats::load(tile_near_));
-    }
-    static std::uint32_t lanes_inside(int b, int width, int height) {
-        if (width >= kTileSide && height >= kTileSide) return 0xffff;
-        std::uint32_t inside = 0;
-        for (int lane = 0; lane < kBlockLanes; ++lane) {
-            const int at = b * kBlockLanes + lane;
-            if (lane_x(at) < width && lane_y(at) < height) inside |= 1U << lane;
-        }
-        return inside;
-    }
 
     Slot* slots(int b) { return tile_.slot + b * kBlockLanes; }
 
     void finish() {
         for (int b = 0; b < MacroTile::kBlocks; ++b)
-            tile_.hit[b] = static_cast<std::uint16_t>((Ints::load(slots(b)) != none_).bits());
-    }
-
-    // Whether anything in these blocks is not surely nearer.
-    HWY_INLINE bool is_open(BlockRange range, float nearest) const {
-        if (nearest < macro_near_) return false;
-        const int first_column = range.first_column();
-        const int last_column = range.last_column();
-        const int first_row = range.first_row();
-        const int last_row = range.last_row();
-        const int left = first_column / kMacroTiles;
-        const int right = last_column / kMacroTiles;
-        const int top = first_row / kMacroTiles;
-        const int bottom = last_row / kMacroTiles;
-        const auto among = [&](const float* near, int from_x, int to_x, int from_y,
-                               int to_y) HWY_ATTR {
-            const std::int32_t places =
-                BoxCulling::kColumns[4 * from_x + to_x] & BoxCulling::kRows[4 * from_y + to_y];
-            return ((Floats::load(near) <= Floats(nearest)).bits() &
-                    static_cast<std::uint32_t>(places)) != 0;
-        };
-        if (left == right && top == bottom)
-            return among(block_near_ + kTileBlocks * (kMacroTiles * top + left), first_column % 4,
-                         last_column % 4, first_row % 4, last_row % 4);
-        return among(tile_near_, left, right, top, bottom);
+            tile_.hit[b] =
+                static_cast<std::uint16_t>((Ints::load(slots(b)) != Ints(kNoSlot)).bits());
     }
 
     HWY_NOINLINE void advance_triangles(const Slot* slots, std::size_t added) {
@@ -170,7 +145,7 @@ class PrimaryTracer {
                 test_triangle(triangles[i], corners_.slot(i), t, blocks);
             });
         }
-        update_near();
+        pyramid_.update();
     }
 
     // Returns which of them turn a back to the eye that nobody sees.
@@ -186,7 +161,7 @@ class PrimaryTracer {
     }
 
     HWY_INLINE std::size_t choose(std::size_t count) {
-        return culling_.choose(queue_, count, tile_near_, macro_near_, chosen_, tiles_);
+        return culling_.choose(queue_, count, pyramid_.tiles(), pyramid_.all(), chosen_, tiles_);
     }
     // Calls test(tile, blocks) where the c-th of those chosen may be seen.
     template <typename Test>
@@ -195,8 +170,7 @@ class PrimaryTracer {
         for (auto tiles = static_cast<std::uint32_t>(tiles_[c]); tiles != 0; tiles &= tiles - 1) {
             const int t = std::countr_zero(tiles);
             const std::uint32_t blocks =
-                culling_.blocks(box, t) &
-                (Floats::load(block_near_ + kTileBlocks * t) <= Floats(box.nearest)).bits();
+                culling_.blocks(box, t) & (pyramid_.blocks(t) <= Floats(box.nearest)).bits();
             if (blocks != 0) test(t, blocks);
         }
     }
@@ -242,8 +216,7 @@ class PrimaryTracer {
             const Floats value =
                 mul_add(x, Floats(triangle.a[i]), mul_add(y, Floats(triangle.b[i]), Floats(at[i])));
             const Floats most = value + Floats(half + (i < 3 ? edge_error : triangle.e[3]));
-            possible = possible & (most >= (i < 3 ? Floats(0.0F)
-                                                  : Floats::load(block_near_ + kTileBlocks * t)));
+            possible = possible & (most >= (i < 3 ? Floats(0.0F) : pyramid_.blocks(t)));
         }
         return possible.bits();
     }
@@ -263,7 +236,7 @@ class PrimaryTracer {
             else
                 found.store(tile_, b, open & (inside >= Floats(0.0F)), slot);
         }
-        changed(b);
+        pyramid_.changed(b);
     }
 
     // By the order of two planes where the triangle is surely met (`inside`) and many lanes show
@@ -329,7 +302,7 @@ class PrimaryTracer {
             for (; blocks != 0; blocks &= blocks - 1)
                 take_sphere(slot, *seen[i].sphere, i, t, std::countr_zero(blocks));
         }
-        update_near();
+        pyramid_.update();
     }
 
     HWY_INLINE void take_sphere(Slot slot, const CameraSphere& s, std::size_t i, int t,
@@ -355,7 +328,7 @@ class PrimaryTracer {
         if (!sure.any() && open_bits == 0) return;
         found.store(tile_, b, sure, slot);
         if (open_bits != 0) decide(slot, b, open_bits);
-        changed(b);
+        pyramid_.changed(b);
     }
 
     // Lane by lane, exactly.
@@ -379,26 +352,6 @@ class PrimaryTracer {
         }
     }
 
-    HWY_INLINE void changed(int b) {
-        changed_tiles_ |= 1U << (b / kTileBlocks);
-        changed_blocks_[b / kTileBlocks] |= 1U << b % kTileBlocks;
-    }
-    HWY_INLINE void update_near() {
-        if (changed_tiles_ == 0) return;
-        for (; changed_tiles_ != 0; changed_tiles_ &= changed_tiles_ - 1) {
-            const int t = std::countr_zero(changed_tiles_);
-            for (std::uint32_t& blocks = changed_blocks_[t]; blocks != 0; blocks &= blocks - 1) {
-                const int b = kTileBlocks * t + std::countr_zero(blocks);
-                block_near_[b] = lowest(Floats::load(tile_.near_low + b * kBlockLanes));
-            }
-            update_tile(t);
-        }
-        macro_near_ = lowest(Floats::load(tile_near_));
-    }
-    HWY_INLINE void update_tile(int t) {
-        tile_near_[t] = lowest(Floats::load(block_near_ + kTileBlocks * t));
-    }
-
     // Spheres that may be seen in a tile: places in the tables, and blocks.
     struct WaitingSpheres {
         std::size_t count = 0;
@@ -414,12 +367,7 @@ class PrimaryTracer {
     PixelBoxMaker box_maker_;
     TriangleMaker triangle_maker_;
     CornerFetch corners_;
-    // The least near_low of a block, of a tile, of all; too small where changed.
-    alignas(64) float block_near_[MacroTile::kBlocks];
-    alignas(64) float tile_near_[MacroTile::kTiles];
-    float macro_near_ = 0;
-    std::uint32_t changed_tiles_ = 0;
-    std::uint32_t changed_blocks_[MacroTile::kTiles] = {};
+    DepthPyramid pyramid_;
     // Boxes of the items of a batch, those chosen, and the tiles where they may be seen.
     alignas(64) PixelBox queue_[kBatch] = {};
     std::int32_t chosen_[2 * kBatch];
@@ -431,6 +379,7 @@ class PrimaryTracer {
 };
 
 void trace_primary(PrimaryJob& job, MacroTile& tile, MacroQuadrics* quadrics) {
+    clear(tile, job.camera.resolution);
     PrimaryTracer(job, tile, quadrics).run();
 }
 
