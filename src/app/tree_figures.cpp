@@ -50,10 +50,7 @@ LeafHistogram histogram(const CompactOctree& octree) {
         }
         for (unsigned octant = 0; octant < 8; ++octant) {
             if ((node.mask() >> octant & 1) == 0) continue;
-            Bounds3T<float> part = box;
-            for (int axis = 0; axis < 3; ++axis)
-                ((octant >> axis & 1) != 0 ? part.min : part.max)[axis] = node.cut[axis];
-            open.push_back({node.child(octant), level + 1, part});
+            open.push_back({node.child(octant), level + 1, octant_box(box, node.cut, octant)});
         }
     }
     return all;

@@ -16,14 +16,6 @@ inline constexpr std::size_t kManyItems = 32;
 inline constexpr std::size_t kPrefetchAhead = 24;
 using BoxSpan = std::span<const Bounds3T<float>>;
 
-/// The box of one octant of a cut voxel.
-inline Bounds3T<float> octant_box(const CutVoxel& voxel, unsigned octant) {
-    Bounds3T<float> box = voxel.bounds;
-    for (int axis = 0; axis < 3; ++axis)
-        ((octant >> axis & 1U) != 0 ? box.min : box.max)[axis] = voxel.cut[axis];
-    return box;
-}
-
 /// The planes for these items; none where no axis can be cut.
 std::optional<CutVoxel> choose_cut(CutRule rule, const Bounds3T<float>& voxel, ItemSpan items,
                                    BoxSpan boxes);

@@ -42,7 +42,8 @@ struct Place {
     Allowance allowance;
 
     Place octant(const Split& split, unsigned o) const {
-        return {octant_box(split.voxel, o), level + 1, allowance.share(split, o)};
+        return {octant_box(split.voxel.bounds, split.voxel.cut, o), level + 1,
+                allowance.share(split, o)};
     }
 };
 

@@ -106,7 +106,8 @@ double Prices::after(const Split& split, std::size_t count) const {
     double cost = interior();
     for (unsigned o = 0; o < 8; ++o)
         if (split.counts[o] != 0)
-            cost += share(octant_box(split.voxel, o), voxel, width) * leaf(split.counts[o]);
+            cost += share(octant_box(split.voxel.bounds, split.voxel.cut, o), voxel, width) *
+                    leaf(split.counts[o]);
     return cost;
 }
 

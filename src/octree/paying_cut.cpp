@@ -2,23 +2,12 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
-#include <limits>
 
 namespace nuvo {
 namespace {
 
-// A voxel thinner than this many units in the last place of its coordinates is not cut: each half
-// must still hold points that differ from its faces.
-constexpr double kThinnestCutUlps = 8;
 // Where a cut saves less than this share of a voxel's tests, another is tried. Commonly it is half.
 constexpr double kLittle = 0.25;
-
-bool thin(const Bounds3& box, int axis) {
-    const double size = std::fmax(std::fabs(box.min[axis]), std::fabs(box.max[axis]));
-    const double ulp = std::nextafter(size, std::numeric_limits<double>::infinity()) - size;
-    return !(box.max[axis] - box.min[axis] > kThinnestCutUlps * ulp);
-}
 
 // Sets of axes are bits, too.
 constexpr unsigned kAllAxes = 7;
@@ -56,7 +45,8 @@ Voxel cut_on(const Bounds3& box, const Point3& planes, unsigned axes) {
 unsigned axes_that_may_be_cut(const Bounds3& box, const Point3& planes) {
     unsigned axes = 0;
     for (int axis = 0; axis < 3; ++axis)
-        if (!thin(box, axis) && box.min[axis] < planes[axis] && planes[axis] < box.max[axis])
+        if (!too_thin_to_cut(box, axis) && box.min[axis] < planes[axis] &&
+            planes[axis] < box.max[axis])
             axes |= 1U << axis;
     return axes;
 }

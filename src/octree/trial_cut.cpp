@@ -1,20 +1,7 @@
 #include "trial_cut.h"
 
-#include <cmath>
-#include <limits>
-
 namespace nuvo {
 namespace {
-
-// A voxel thinner than this many units in the last place of its coordinates is not cut: each half
-// must still hold points that differ from its faces.
-constexpr double kThinnestCutUlps = 8;
-
-bool thin(const Bounds3& box, int axis) {
-    const double size = std::fmax(std::fabs(box.min[axis]), std::fabs(box.max[axis]));
-    const double ulp = std::nextafter(size, std::numeric_limits<double>::infinity()) - size;
-    return !(box.max[axis] - box.min[axis] > kThinnestCutUlps * ulp);
-}
 
 // The far half of an axis that was not cut: its neighbour lists all that is near it.
 bool empty_slab(const Bounds3& box) {
@@ -67,7 +54,7 @@ std::optional<Point3> Cutter::choose_midpoint(const Voxel& voxel, const Items& i
     if (!midpoint) return midpoint;
     int cut_axes = 0;
     for (int axis = 0; axis < 3; ++axis) {
-        if (thin(voxel.bounds, axis))
+        if (too_thin_to_cut(voxel.bounds, axis))
             (*midpoint)[axis] = voxel.bounds.max[axis];
         else
             ++cut_axes;

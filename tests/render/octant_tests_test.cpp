@@ -76,7 +76,7 @@ TEST(OctantTests, NeverClearAnOctantThatATriangleTouchesInAPoint) {
         std::vector<LocalTriangle> triangles;
         for (const auto& corners : kinds) {
             LocalTriangle t;
-            for (int i = 0; i < 3; ++i) t.corner[i] = corners[i];
+            for (int i = 0; i < 9; ++i) t.corner[i] = corners[i / 3][i % 3];
             triangles.push_back(t);
         }
         const std::uint8_t touched = octants_at(place.voxel, p);
@@ -136,8 +136,9 @@ Kept kept_at(float scale) {
         std::vector<std::uint32_t> items;
         for (LocalTriangle& t : triangles) {
             items.push_back(static_cast<std::uint32_t>(items.size()));
-            for (auto& corner : t.corner) {
-                corner = p + vector(4 * size);
+            for (int i = 0; i < 3; ++i) {
+                const Vec3<float> corner = p + vector(4 * size);
+                for (int axis = 0; axis < 3; ++axis) t.corner[3 * i + axis] = corner[axis];
             }
         }
         std::vector<std::uint8_t> masks(items.size(), 0xff);
@@ -148,7 +149,7 @@ Kept kept_at(float scale) {
                 for (int axis = 0; axis < 3; ++axis)
                     ((o >> axis & 1U) != 0 ? box.min : box.max)[axis] = voxel.cut[axis];
                 const auto& c = triangles[i].corner;
-                const Triangle t{Point3(c[0]), Point3(c[1]), Point3(c[2])};
+                const Triangle t{{c[0], c[1], c[2]}, {c[3], c[4], c[5]}, {c[6], c[7], c[8]}};
                 const bool in_double = overlaps(t, box);
                 const bool in_float = (masks[i] >> o & 1U) != 0;
                 EXPECT_TRUE(in_float || !in_double);

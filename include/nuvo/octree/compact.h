@@ -34,6 +34,16 @@ struct CompactNode {
 };
 static_assert(sizeof(CompactNode) == 16);
 
+/// The box of one octant of a voxel that is cut by the planes x, y, z = cut; bits as in
+/// CompactNode.
+template <typename Cut>
+Bounds3T<float> octant_box(const Bounds3T<float>& voxel, const Cut& cut, unsigned octant) {
+    Bounds3T<float> box = voxel;
+    for (int axis = 0; axis < 3; ++axis)
+        ((octant >> axis & 1U) != 0 ? box.min : box.max)[axis] = cut[axis];
+    return box;
+}
+
 /// Where a voxel is cut: through its centre, or on each axis where the surface area heuristic of
 /// the two sides is least.
 enum class CutRule : std::uint8_t { kSpatial, kSweep };

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cmath>
+#include <limits>
+
 #include "nuvo/math/bounds.h"
 #include "nuvo/octree/label.h"
 
@@ -41,5 +44,14 @@ struct Voxel {
                p.y < bounds.max.y && bounds.min.z <= p.z && p.z < bounds.max.z;
     }
 };
+
+/// Whether the box is at most 8 units in the last place of its coordinates thick on that axis: each
+/// half must still hold points that differ from its faces.
+inline bool too_thin_to_cut(const Bounds3& box, int axis) {
+    constexpr double kThinnestUlps = 8;
+    const double size = std::fmax(std::fabs(box.min[axis]), std::fabs(box.max[axis]));
+    const double ulp = std::nextafter(size, std::numeric_limits<double>::infinity()) - size;
+    return !(box.max[axis] - box.min[axis] > kThinnestUlps * ulp);
+}
 
 }  // namespace nuvo

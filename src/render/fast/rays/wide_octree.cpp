@@ -110,7 +110,7 @@ class WideBuilder {
         for (unsigned octant = 0; octant < 8; ++octant) {
             if ((node.mask() >> octant & 1) == 0) continue;
             const std::uint32_t child = node.child(octant);
-            measure(child, octant_of(bounds, node, octant));
+            measure(child, octant_box(bounds, node.cut, octant));
             voxel.box = voxel.box.extended(voxels_[child].box);
         }
         gather_items(node, voxel);
@@ -219,14 +219,7 @@ class WideBuilder {
         }
         for (unsigned octant = 0; octant < 8; ++octant)
             if ((node.mask() >> octant & 1) != 0)
-                find_homes(node.child(octant), octant_of(bounds, node, octant));
-    }
-    static Bounds3T<float> octant_of(const Bounds3T<float>& bounds, const CompactNode& node,
-                                     unsigned octant) {
-        Bounds3T<float> inside = bounds;
-        for (int axis = 0; axis < 3; ++axis)
-            ((octant >> axis & 1U) != 0 ? inside.min : inside.max)[axis] = node.cut[axis];
-        return inside;
+                find_homes(node.child(octant), octant_box(bounds, node.cut, octant));
     }
 
     // The items of all octants without repetition, if they are few.

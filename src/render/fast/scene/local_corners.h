@@ -17,7 +17,7 @@ namespace nuvo::HWY_NAMESPACE {
 /// Asks for what load_corners() reads of a triangle.
 HWY_INLINE void prefetch_corners(const LocalTriangle& triangle) {
     __builtin_prefetch(&triangle.corner[0]);
-    __builtin_prefetch(&triangle.corner[2].z);
+    __builtin_prefetch(&triangle.corner[8]);
 }
 
 /// The corners of 16 triangles by corner and axis; triangle_at(i) is the i-th one's LocalTriangle.
@@ -29,9 +29,8 @@ HWY_INLINE void load_corners(const TriangleAt& triangle_at, Floats (&at)[3][3]) 
     alignas(64) std::int32_t fours[3][4 * FourColumns::kRecords];
     for (std::size_t i = 0; i < FourColumns::kRecords; ++i) {
         const LocalTriangle& triangle = triangle_at(i);
-        const float* const numbers = &triangle.corner[0].x;
         for (int k = 0; k < 3; ++k)
-            std::memcpy(fours[k] + 4 * FourColumns::place(i), numbers + kFirst[k],
+            std::memcpy(fours[k] + 4 * FourColumns::place(i), triangle.corner + kFirst[k],
                         4 * sizeof(float));
     }
     for (std::size_t k = 0; k < 3; ++k) {

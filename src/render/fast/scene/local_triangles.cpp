@@ -41,15 +41,13 @@ class LocalMaker {
             (low - margin(low)).store(sides_[axis]);
             (high + margin(high)).store(sides_[axis + 3]);
         }
-        static_assert(sizeof(LocalTriangle) == sizeof(float[9]));
-        static_assert(sizeof(Bounds3T<float>) == sizeof(float[6]));
         job_.front_only[first / kBatch] =
             static_cast<std::uint8_t>(batch.front_only & ((1U << count) - 1));
         for (std::size_t i = 0; i < count; ++i) {
-            float* const triangle = &job_.triangles[first + i].corner[0].x;
-            for (std::size_t k = 0; k < 9; ++k) triangle[k] = corners_[k][i];
-            float* const box = &job_.boxes[first + i].min.x;
-            for (std::size_t k = 0; k < 6; ++k) box[k] = sides_[k][i];
+            LocalTriangle& triangle = job_.triangles[first + i];
+            for (std::size_t k = 0; k < 9; ++k) triangle.corner[k] = corners_[k][i];
+            job_.boxes[first + i] = {{sides_[0][i], sides_[1][i], sides_[2][i]},
+                                     {sides_[3][i], sides_[4][i], sides_[5][i]}};
         }
     }
 

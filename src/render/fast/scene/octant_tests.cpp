@@ -102,10 +102,10 @@ HWY_INLINE Corners load_corners(const LocalTriangle* triangles, const Ints& offs
     Corners c;
     c.widest = Floats(0.0F);
     c.longest = Floats(0.0F);
-    const float* base = &triangles->corner[0].x;
     for (int axis = 0; axis < 3; ++axis) {
         for (int i = 0; i < 3; ++i) {
-            c.at[i][axis] = Floats::gather(base + 3 * i + axis, offset) - octants.origin[axis];
+            c.at[i][axis] =
+                Floats::gather(triangles->corner + 3 * i + axis, offset) - octants.origin[axis];
             c.widest = max(c.widest, abs(c.at[i][axis]));
         }
         for (int i = 0; i < 3; ++i) {

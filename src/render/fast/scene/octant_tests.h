@@ -7,9 +7,10 @@
 
 namespace nuvo {
 
-/// A triangle's corners in the local frame, each rounded to nearest.
+/// A triangle's corners in the local frame, each number rounded to nearest: a.x, a.y, a.z, b.x ...
+/// c.z.
 struct LocalTriangle {
-    Vec3<float> corner[3];
+    float corner[9];
 };
 /// A sphere in the local frame, each number rounded to nearest.
 struct LocalSphere {

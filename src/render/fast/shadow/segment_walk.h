@@ -54,11 +54,7 @@ class SegmentWalk {
                 Interval t{0, end_};
                 for (int axis = 0; axis < 3; ++axis) t.cut_by(half[axis][octant >> axis & 1]);
                 if (t.first > t.last) continue;
-                Place& place = places[waiting++];
-                place = {node.child(octant), at.voxel};
-                for (int axis = 0; axis < 3; ++axis)
-                    ((octant >> axis & 1) != 0 ? place.voxel.min : place.voxel.max)[axis] =
-                        node.cut[axis];
+                places[waiting++] = {node.child(octant), octant_box(at.voxel, node.cut, octant)};
             }
         }
         return false;
