@@ -69,36 +69,13 @@ Bounded<double> rounded_touch_band(const RoundedQuadratic& q, const Ellipsoid& e
 
 std::optional<SphereHit> hit(const ExactRay& ray, const Ellipsoid& ellipsoid, StageCounts& counts,
                              Sides sides) {
-    using namespace detail;
-    SphereHit hit;
-    switch (rounded_hit(rounded_quadratic(ray, ellipsoid), sides, hit)) {
-        case Decision::kNo:
-            return std::nullopt;
-        case Decision::kYes:
-            return hit;
-        case Decision::kUnsure:
-            break;
-    }
-    ++counts.wider;
-    ++counts.exact;
-    return exact_hit(exact_quadratic(ray, ellipsoid), sides);
+    return detail::quadric_hit(ray, ellipsoid, sides, counts);
 }
 
 bool blocks(const ExactRay& shadow, double end, double origin_error, const Ellipsoid& ellipsoid,
             bool origin_on_it, StageCounts& counts, Sides sides) {
-    using namespace detail;
-    const RoundedQuadratic q = rounded_quadratic(shadow, ellipsoid);
-    const Decision decision =
-        rounded_blocks(q, end, rounded_touch_band(q, ellipsoid, origin_error), origin_on_it, sides);
-    if (decision != Decision::kUnsure) return decision == Decision::kYes;
-    ++counts.wider;
-    ++counts.exact;
-    const ExactQuadratic exact = exact_quadratic(shadow, ellipsoid);
-    return exact_blocks(
-        exact, end,
-        origin_place(exact, origin_on_it,
-                     [&] { return exact_touch_band(shadow, ellipsoid, origin_error); }),
-        sides);
+    return detail::quadric_blocks(shadow, end, origin_error, ellipsoid, origin_on_it, sides,
+                                  counts);
 }
 
 namespace {

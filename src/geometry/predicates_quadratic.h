@@ -36,6 +36,42 @@ Decision rounded_hit(const RoundedQuadratic& q, Sides sides, SphereHit& hit);
 Decision rounded_blocks(const RoundedQuadratic& q, double end, const Bounded<double>& band,
                         bool on_it, Sides sides);
 
+/// hit() of a sphere or an ellipsoid: exactly where doubles are not sure.
+template <typename Quadric>
+std::optional<SphereHit> quadric_hit(const ExactRay& ray, const Quadric& quadric, Sides sides,
+                                     StageCounts& counts) {
+    SphereHit hit;
+    switch (rounded_hit(rounded_quadratic(ray, quadric), sides, hit)) {
+        case Decision::kNo:
+            return std::nullopt;
+        case Decision::kYes:
+            return hit;
+        case Decision::kUnsure:
+            break;
+    }
+    ++counts.wider;
+    ++counts.exact;
+    return exact_hit(exact_quadratic(ray, quadric), sides);
+}
+
+/// blocks() of a sphere or an ellipsoid: the same.
+template <typename Quadric>
+bool quadric_blocks(const ExactRay& shadow, double end, double origin_error, const Quadric& quadric,
+                    bool origin_on_it, Sides sides, StageCounts& counts) {
+    const RoundedQuadratic q = rounded_quadratic(shadow, quadric);
+    const Decision decision =
+        rounded_blocks(q, end, rounded_touch_band(q, quadric, origin_error), origin_on_it, sides);
+    if (decision != Decision::kUnsure) return decision == Decision::kYes;
+    ++counts.wider;
+    ++counts.exact;
+    const ExactQuadratic exact = exact_quadratic(shadow, quadric);
+    return exact_blocks(
+        exact, end,
+        origin_place(exact, origin_on_it,
+                     [&] { return exact_touch_band(shadow, quadric, origin_error); }),
+        sides);
+}
+
 /// f + t g with its error in 2-norm.
 struct RoundedOffset {
     Vector3 offset;

@@ -35,18 +35,7 @@ RoundedQuadratic rounded_quadratic(const ExactRay& ray, const Sphere& sphere) {
 
 std::optional<SphereHit> sphere_hit(const ExactRay& ray, const Sphere& sphere, Sides sides,
                                     StageCounts& counts) {
-    SphereHit hit;
-    switch (rounded_hit(rounded_quadratic(ray, sphere), sides, hit)) {
-        case Decision::kNo:
-            return std::nullopt;
-        case Decision::kYes:
-            return hit;
-        case Decision::kUnsure:
-            break;
-    }
-    ++counts.wider;
-    ++counts.exact;
-    return exact_hit(exact_quadratic(ray, sphere), sides);
+    return quadric_hit(ray, sphere, sides, counts);
 }
 
 Bounded<double> rounded_touch_band(const RoundedQuadratic& q, const Sphere&, double origin_error) {
@@ -56,18 +45,7 @@ Bounded<double> rounded_touch_band(const RoundedQuadratic& q, const Sphere&, dou
 
 bool sphere_blocks(const ExactRay& shadow, double end, double origin_error, const Sphere& sphere,
                    bool origin_on_it, Sides sides, StageCounts& counts) {
-    const RoundedQuadratic q = rounded_quadratic(shadow, sphere);
-    const Decision decision =
-        rounded_blocks(q, end, rounded_touch_band(q, sphere, origin_error), origin_on_it, sides);
-    if (decision != Decision::kUnsure) return decision == Decision::kYes;
-    ++counts.wider;
-    ++counts.exact;
-    const ExactQuadratic exact = exact_quadratic(shadow, sphere);
-    return exact_blocks(
-        exact, end,
-        origin_place(exact, origin_on_it,
-                     [&] { return exact_touch_band(shadow, sphere, origin_error); }),
-        sides);
+    return quadric_blocks(shadow, end, origin_error, sphere, origin_on_it, sides, counts);
 }
 
 }  // namespace detail
