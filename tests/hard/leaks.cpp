@@ -4,11 +4,12 @@
 #include <atomic>
 #include <mutex>
 #include <ostream>
-#include <thread>
 #include <vector>
 
+#include "nuvo/math/parallel.h"
 #include "nuvo/render/render.h"
 #include "parts.h"
+#include "threads.h"
 
 namespace nuvo::hard {
 namespace {
@@ -100,20 +101,12 @@ std::uint64_t leaks_of_batch(std::uint64_t number, std::uint64_t rays_wanted, st
 LeakCount count_leaks(std::uint64_t rays, std::uint64_t seed, unsigned threads,
                       std::ostream& faults) {
     const std::uint64_t batches = (rays + kRaysPerMesh - 1) / kRaysPerMesh;
-    std::atomic<std::uint64_t> next{0};
     std::atomic<std::uint64_t> leaks{0};
     std::mutex mutex;
-    const auto work = [&] {
-        for (std::uint64_t i = next++; i < batches; i = next++)
-            leaks += leaks_of_batch(i, std::min(kRaysPerMesh, rays - i * kRaysPerMesh), seed,
-                                    faults, mutex);
-    };
-    std::vector<std::thread> pool;
-    const unsigned count =
-        threads > 0 ? threads : std::max(1U, std::thread::hardware_concurrency());
-    for (unsigned i = 1; i < count; ++i) pool.emplace_back(work);
-    work();
-    for (std::thread& thread : pool) thread.join();
+    for_each_index(thread_count(threads), batches, [&](std::size_t i, int) {
+        leaks +=
+            leaks_of_batch(i, std::min(kRaysPerMesh, rays - i * kRaysPerMesh), seed, faults, mutex);
+    });
     return {rays, leaks};
 }
 

@@ -1,19 +1,19 @@
 #include "pictures.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cstdlib>
 #include <iomanip>
 #include <mutex>
 #include <ostream>
 #include <sstream>
-#include <thread>
 
+#include "nuvo/math/parallel.h"
 #include "nuvo/render/fast.h"
 #include "nuvo/render/render.h"
 #include "nuvo/scene/x3d.h"
 #include "reference.h"
 #include "scene_files.h"
+#include "threads.h"
 
 namespace nuvo::hard {
 namespace {
@@ -87,23 +87,14 @@ bool check_pictures(Resolution resolution, unsigned threads, std::ostream& out) 
     const std::vector<SceneFile> files = hard_scene_files();
     std::vector<PictureCheck> checks(files.size());
     std::vector<std::string> faults(files.size());
-    std::atomic<std::size_t> next{0};
-    const auto work = [&] {
-        for (std::size_t i = next++; i < files.size(); i = next++) {
-            const Scene scene = x3d::read_file(hard_scene_path(files[i].name));
-            std::ostringstream found;
-            const Image image = picture(scene, resolution);
-            checks[i] = check_picture(scene, image, found);
-            checks[i].fast_differs = fast_differences(scene, image);
-            faults[i] = found.str();
-        }
-    };
-    std::vector<std::thread> pool;
-    const unsigned count =
-        threads > 0 ? threads : std::max(1U, std::thread::hardware_concurrency());
-    for (unsigned i = 1; i < count; ++i) pool.emplace_back(work);
-    work();
-    for (std::thread& thread : pool) thread.join();
+    for_each_index(thread_count(threads), files.size(), [&](std::size_t i, int) {
+        const Scene scene = x3d::read_file(hard_scene_path(files[i].name));
+        std::ostringstream found;
+        const Image image = picture(scene, resolution);
+        checks[i] = check_picture(scene, image, found);
+        checks[i].fast_differs = fast_differences(scene, image);
+        faults[i] = found.str();
+    });
     out << "| testfiles/hard           | pixels | off, on the mask | off elsewhere | fast differs "
            "|\n"
            "|---|---|---|---|---|\n";

@@ -1,15 +1,14 @@
 #include <algorithm>
-#include <atomic>
 #include <mutex>
 #include <ostream>
 #include <sstream>
-#include <thread>
-#include <vector>
 
 #include "classes.h"
 #include "lights.h"
+#include "nuvo/math/parallel.h"
 #include "nuvo/render/render.h"
 #include "pictures.h"
+#include "threads.h"
 
 namespace nuvo::hard {
 namespace {
@@ -61,27 +60,19 @@ PictureCheck check_one(std::uint64_t number, std::uint64_t seed, Lighting lighti
 
 bool check_random_pictures(std::uint64_t count, std::uint64_t seed, unsigned threads,
                            std::ostream& out, Lighting lighting) {
-    std::atomic<std::uint64_t> next{0};
     std::mutex mutex;
     PictureCheck sum;
-    const auto work = [&] {
-        for (std::uint64_t i = next++; i < count; i = next++) {
-            std::ostringstream faults;
-            const PictureCheck check = check_one(i, seed, lighting, faults);
-            const std::lock_guard lock(mutex);
-            sum.pixels += check.pixels;
-            sum.off += check.off;
-            sum.masked += check.masked;
-            sum.rounded += check.rounded;
-            sum.fast_differs += check.fast_differs;
-            out << faults.str();
-        }
-    };
-    std::vector<std::thread> pool;
-    const unsigned n = threads > 0 ? threads : std::max(1U, std::thread::hardware_concurrency());
-    for (unsigned i = 1; i < n; ++i) pool.emplace_back(work);
-    work();
-    for (std::thread& thread : pool) thread.join();
+    for_each_index(thread_count(threads), count, [&](std::size_t i, int) {
+        std::ostringstream faults;
+        const PictureCheck check = check_one(i, seed, lighting, faults);
+        const std::lock_guard lock(mutex);
+        sum.pixels += check.pixels;
+        sum.off += check.off;
+        sum.masked += check.masked;
+        sum.rounded += check.rounded;
+        sum.fast_differs += check.fast_differs;
+        out << faults.str();
+    });
     out << count << " scenes, " << sum.pixels << " pixels: " << sum.masked
         << " off on the silhouette mask, " << sum.rounded
         << " where the rounding of the lit point decides, " << sum.wrong() << " off elsewhere, "

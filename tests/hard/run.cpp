@@ -1,17 +1,17 @@
 #include "run.h"
 
 #include <algorithm>
-#include <atomic>
 #include <iomanip>
 #include <limits>
 #include <mutex>
 #include <ostream>
 #include <sstream>
-#include <thread>
 
 #include "classes.h"
+#include "nuvo/math/parallel.h"
 #include "nuvo/render/fast.h"
 #include "oracle.h"
+#include "threads.h"
 
 namespace nuvo::hard {
 namespace {
@@ -186,26 +186,17 @@ std::vector<ClassTally> run(const RunOptions& options, std::ostream& faults) {
     const auto classes = hard_classes();
     std::vector<ClassTally> tallies(classes.size());
     for (std::size_t i = 0; i < classes.size(); ++i) tallies[i].name = classes[i].name;
-    std::atomic<std::size_t> next{0};
     std::mutex mutex;
-    const auto work = [&] {
-        for (std::size_t i = next++; i < batches.size(); i = next++) {
-            const Batch& batch = batches[i];
-            std::ostringstream found;
-            const Tally tally = run_batch(classes[batch.class_index], batch, options, found);
-            const std::lock_guard lock(mutex);
-            const bool full = static_cast<Coordinates>(batch.number % 3) == Coordinates::kDouble;
-            ClassTally& sum = tallies[batch.class_index];
-            (full ? sum.full_double : sum.float_exact) += tally;
-            faults << found.str();
-        }
-    };
-    std::vector<std::thread> threads;
-    const unsigned count =
-        options.threads > 0 ? options.threads : std::max(1U, std::thread::hardware_concurrency());
-    for (unsigned i = 1; i < count; ++i) threads.emplace_back(work);
-    work();
-    for (std::thread& thread : threads) thread.join();
+    for_each_index(thread_count(options.threads), batches.size(), [&](std::size_t i, int) {
+        const Batch& batch = batches[i];
+        std::ostringstream found;
+        const Tally tally = run_batch(classes[batch.class_index], batch, options, found);
+        const std::lock_guard lock(mutex);
+        const bool full = static_cast<Coordinates>(batch.number % 3) == Coordinates::kDouble;
+        ClassTally& sum = tallies[batch.class_index];
+        (full ? sum.full_double : sum.float_exact) += tally;
+        faults << found.str();
+    });
     std::erase_if(tallies, [](const ClassTally& tally) {
         return tally.float_exact.rays + tally.full_double.rays == 0;
     });
