@@ -29,7 +29,7 @@ class RayMaker {
 
     Ray ray(int kind) {
         const Point3 from = inside();
-        switch (kind % 10) {
+        switch (kind % 11) {
             case 0:
                 return {from, inside() - from};
             case 1:  // along an axis, both other components zero, of either sign
@@ -53,6 +53,12 @@ class RayMaker {
             }
             case 8:  // nearly along an axis
                 return {from, axis_direction(std::exp2(uniform(random_, -1074, -10)))};
+            case 9: {  // a largest component that floats round up to a power of two
+                Vector3 way = direction() * 0.5;
+                way[static_cast<int>(random_() % 3)] =
+                    sign() * (1 - std::exp2(uniform(random_, -53, -25)));
+                return {from, way * std::exp2(std::round(uniform(random_, -20, 20)))};
+            }
             default: {  // an exact diagonal through a corner
                 const Vector3 d{sign(), sign(), sign()};
                 return {corner() - d * std::exp2(std::ceil(std::log2(size()))), d};
@@ -321,6 +327,30 @@ TEST(SingleRays, TakeTheFirstOfHundredsThatCoincide) {
     const std::vector<Ray> rays = {{{0.1, 0.2, 9}, {0, 0, -1}}, {{9, 0.1, 0.2}, {-1, 0, 0}}};
     EXPECT_EQ(expect_equal(scene, rays), 2);
     EXPECT_GT(expect_equal(scene, rays_for(scene, 51, 40)), 8);
+}
+
+// More triangles than are kept undecided, so near each other that floats cannot order them, met
+// along directions a little shorter than a power of two, to which floats round them.
+TEST(SingleRays, OrderManyThatFloatsCannotTellApart) {
+    constexpr int kDepths[] = {2,  18, 10, 23, 32, 31, 7, 21, 17, 5,  1,  9,  22, 19, 11, 33, 27,
+                               25, 13, 28, 0,  26, 30, 6, 12, 20, 29, 14, 24, 15, 3,  16, 4,  8};
+    TriangleMesh mesh;
+    for (const int depth : kDepths) {
+        const double z = 1e-9 * depth;
+        const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+        for (const Point3& corner : {Point3{-1, -1, z}, Point3{1, -1, z}, Point3{0, 1, z}})
+            mesh.positions.push_back(corner);
+        mesh.triangles.push_back({first, first + 1, first + 2});
+    }
+    Scene scene;
+    scene.objects.push_back({mesh});
+    scene.objects.back().solid = false;
+    finish(scene);
+    std::vector<Ray> rays;
+    for (const double length : {1 - 1e-11, 1 - 0x1p-30, 1.0, 2 - 0x1p-40, 0.25 - 0x1p-40, 1.5})
+        for (const double from : {2.0, -2.0})
+            rays.push_back({{0, 0, from}, {0, 0, from > 0 ? -length : length}});
+    EXPECT_EQ(expect_equal(scene, rays), 12);
 }
 
 // Triangles in one plane, and others that a corner takes out of it by a few roundings: the nearer

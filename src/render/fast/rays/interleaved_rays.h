@@ -274,9 +274,8 @@ class InterleavedRays {
         state.candidates[state.candidate_count++] = candidate;
     }
     HWY_NOINLINE void decide(RayState& state) const {
-        const Ray& ray = batch_[state.index];
-        const LocalRay local(ray, rays_.scene().frame(), tree_.reach);
-        const auto exact = rays_.decide(ray, local, {state.candidates, state.candidate_count});
+        const auto exact = rays_.decide(batch_[state.index], *state.rays, state.lane,
+                                        {state.candidates, state.candidate_count});
         state.candidate_count = 0;
         if (!exact) return;
         state.candidates[state.candidate_count++] = *exact;

@@ -46,12 +46,15 @@ class RayBlock {
     struct Local {
         Doubles origin[3];
         Doubles step[3];
+        Doubles advance;
+        Doubles scale;
         Floats error;
         Floats behind;
     };
 
     // True if all rays are as usual: a direction of which float exponents are enough, an origin not
-    // far from the box. The same as LocalRay does, but for roundings that its bounds allow.
+    // far from the box. The same as LocalRay does, but for roundings that its bounds allow, and the
+    // exponent of a direction that floats round up to a power of two.
     HWY_INLINE bool prepare_near(std::span<const Ray> rays, const LocalFrame& frame, float reach) {
         alignas(64) double origins[3][RayLanes::kRays];
         alignas(64) double steps[3][RayLanes::kRays];
@@ -82,6 +85,8 @@ class RayBlock {
         const Ints exponent = shift_right<23>(bits_of(float_size)) - Ints(127);
         const Doubles unit = doubles_from(powers_of_two(-exponent));
         for (Doubles& step : local.step) step = step * unit;
+        local.advance = Doubles(0.0);
+        local.scale = scale / unit;
         local.error = floats_from((far + Doubles(4.0)) * Doubles(0x1p-49));
         local.behind = Floats(0.0F);
         prepare_slabs(local, reach);
@@ -92,6 +97,8 @@ class RayBlock {
     HWY_NOINLINE void prepare_far(std::span<const Ray> rays, const LocalFrame& frame, float reach) {
         alignas(64) double origins[3][RayLanes::kRays] = {};
         alignas(64) double steps[3][RayLanes::kRays] = {};
+        alignas(64) double advances[RayLanes::kRays] = {};
+        alignas(64) double scales[RayLanes::kRays] = {};
         alignas(64) float errors[RayLanes::kRays] = {};
         alignas(64) float behind[RayLanes::kRays] = {};
         valid = 0;
@@ -103,6 +110,8 @@ class RayBlock {
                 origins[axis][i] = ray.origin[axis];
                 steps[axis][i] = ray.step[axis];
             }
+            advances[i] = ray.advance;
+            scales[i] = ray.scale;
             // Twice, so that the slabs' roundings of it are made up for.
             errors[i] = static_cast<float>(2 * ray.error);
             behind[i] = ray.behind;
@@ -112,6 +121,8 @@ class RayBlock {
             local.origin[axis] = Doubles::load(origins[axis]);
             local.step[axis] = Doubles::load(steps[axis]);
         }
+        local.advance = Doubles::load(advances);
+        local.scale = Doubles::load(scales);
         local.error = Floats::load(errors);
         local.behind = Floats::load(behind);
         prepare_slabs(local, reach);
@@ -151,6 +162,8 @@ class RayBlock {
         store(direction, least_unit, lanes.direction);
         store(ray.origin, Doubles(0.0), lanes.origin);
         store(ray.step, Doubles(0.0), lanes.step);
+        ray.advance.store(lanes.advance);
+        ray.scale.store(lanes.scale);
         signs.store(lanes.signs);
     }
 };

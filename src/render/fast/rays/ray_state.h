@@ -53,6 +53,8 @@ struct RayLanes {
     float direction[kRays][4];            ///< the fourth: least_unit()
     double origin[kRays][4];              ///< the fourth: 0
     double step[kRays][4];                ///< the fourth: 0
+    double advance[kRays];
+    double scale[kRays];
     std::int32_t signs[kRays];
 
     float behind(std::size_t ray) const { return inverse[ray][3]; }

@@ -73,7 +73,8 @@ std::vector<RayAnswer> SingleRays::closest_hits(std::span<const Ray> rays, Progr
     return answers;
 }
 
-std::optional<RayCandidate> SingleRays::decide(const Ray& ray, const LocalRay& local,
+std::optional<RayCandidate> SingleRays::decide(const Ray& ray, const RayLanes& lanes,
+                                               std::size_t lane,
                                                std::span<const RayCandidate> candidates) {
     tests_ += candidates.size();
     std::array<Slot, RayState::kMaxCandidates> slots;
@@ -85,9 +86,10 @@ std::optional<RayCandidate> SingleRays::decide(const Ray& ray, const LocalRay& l
     const auto hit = nearest_of(ray, {slots.data(), count});
     if (!hit) return std::nullopt;
     // Rounded to float, with the advance's and the origin's errors: |d| >= 1.
-    const double s = hit->t * local.scale - local.advance;
-    const double slack = roundings(4) * std::fabs(s) + 4 * local.error +
-                         2 * root_tolerance() * (std::fabs(s) + local.advance) +
+    const double advance = lanes.advance[lane];
+    const double s = hit->t * lanes.scale[lane] - advance;
+    const double slack = roundings(4) * std::fabs(s) + 4.0 * lanes.error(lane) +
+                         2 * root_tolerance() * (std::fabs(s) + advance) +
                          std::numeric_limits<float>::min();
     return RayCandidate{static_cast<float>(s - slack), static_cast<float>(s + slack), hit->slot,
                         true};

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "exact_kernel.h"
-#include "fast/rays/local_ray.h"
 #include "fast/rays/pair_roots.h"
 #include "fast/rays/ray_state.h"
 #include "fast/rays/wide_octree.h"
@@ -53,8 +52,9 @@ class SingleRays {
     bool gives_up(std::size_t rays) const {
         return bounds_scale_ != 0 && tests_ > serial_cost(rays_ + rays, scene_);
     }
-    /// The nearest of the candidates by exact arithmetic, if any is met.
-    std::optional<RayCandidate> decide(const Ray& ray, const LocalRay& local,
+    /// The nearest of the candidates by exact arithmetic, if any is met. The ray is the lane-th
+    /// one of `lanes`.
+    std::optional<RayCandidate> decide(const Ray& ray, const RayLanes& lanes, std::size_t lane,
                                        std::span<const RayCandidate> candidates);
     /// The nearest primitive among all; kNoSlot: none.
     Slot brute_force(const Ray& ray);

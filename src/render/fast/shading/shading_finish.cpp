@@ -108,12 +108,13 @@ class TileFinisher {
     // The interpolated color is the diffuse one, or if unlit the emissive one.
     HWY_INLINE void take_colors(int b, MaterialLanes& out) const {
         const int first = b * kBlockLanes;
+        const RayMask colored = RayMask::from_bits(scratch_.colored[b]);
         const RayMask lit = RayMask::from_bits(scratch_.colored[b] & scratch_.lit_material[b]);
         const RayMask unlit =
             RayMask::from_bits(scratch_.colored[b] & ~scratch_.lit_material[b] & 0xffffU);
         Floats most(0.0F);
         for (int c = 0; c < 3; ++c) {
-            const Floats color = Floats::load(scratch_.color[c] + first);
+            const Floats color = Floats::load(scratch_.color[c] + first, colored);
             out.diffuse[c] = select(lit, color, out.diffuse[c]);
             out.emissive[c] = select(unlit, color, out.emissive[c]);
             most = max(most, color);
