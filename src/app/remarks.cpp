@@ -17,6 +17,23 @@ std::uint32_t packed(const Rgb8& color) {
     return std::uint32_t{color.r} << 16 | std::uint32_t{color.g} << 8 | color.b;
 }
 
+// Pixels all over the picture, so that what shows somewhere is met soon: a prime beyond any side
+// visits each pixel once.
+class Pixels {
+  public:
+    explicit Pixels(const Image& picture)
+        : width_(static_cast<std::uint64_t>(picture.width())),
+          count_(width_ * static_cast<std::uint64_t>(picture.height())) {}
+    std::uint64_t count() const { return count_; }
+    int x(std::uint64_t i) const { return static_cast<int>(i * kStride % count_ % width_); }
+    int y(std::uint64_t i) const { return static_cast<int>(i * kStride % count_ / width_); }
+
+  private:
+    static constexpr std::uint64_t kStride = 1'000'003;
+    std::uint64_t width_;
+    std::uint64_t count_;
+};
+
 /// What the picture shows may be nothing but background, or nothing but what needs no light.
 struct Suspicion {
     bool empty = true;
@@ -32,16 +49,10 @@ Suspicion suspicion(const Scene& scene, const Image& picture) {
         may.dark = may.dark || material.lit;
     }
     const RayGenerator rays(scene.camera, {picture.width(), picture.height()});
-    const auto n =
-        static_cast<std::uint64_t>(picture.width()) * static_cast<std::uint64_t>(picture.height());
-    // All over the picture, so that what shows somewhere is met soon: a prime beyond any side
-    // visits each pixel once.
-    constexpr std::uint64_t kStride = 1'000'003;
-    const auto width = static_cast<std::uint64_t>(picture.width());
-    for (std::uint64_t i = 0; i < n && (may.empty || may.dark); ++i) {
-        const std::uint64_t at = i * kStride % n;
-        const int x = static_cast<int>(at % width);
-        const int y = static_cast<int>(at / width);
+    const Pixels pixels(picture);
+    for (std::uint64_t i = 0; i < pixels.count() && (may.empty || may.dark); ++i) {
+        const int x = pixels.x(i);
+        const int y = pixels.y(i);
         const std::uint32_t color = packed(picture.at(x, y));
         const bool background =
             color == packed(quantized(scene.background.color(rays.ray(x, y).direction)));
@@ -51,8 +62,9 @@ Suspicion suspicion(const Scene& scene, const Image& picture) {
     return may;
 }
 
-/// What the rays of a picture met.
+/// What rays of a picture met.
 struct Met {
+    std::size_t asked = 0;
     std::size_t any = 0;
     std::size_t lit = 0;     ///< that reflects light
     std::size_t alight = 0;  ///< where some light adds to what is emitted
@@ -69,22 +81,23 @@ Met met_by(const Scene& scene, const Image& picture, const Answers& answers) {
         if (material.lit && reflects) materials[object.shape_index] = &material;
     }
     const RayGenerator generator(scene.camera, {picture.width(), picture.height()});
+    const Pixels pixels(picture);
+    // All in one call: what a tracer learns from ray to ray it forgets from call to call.
+    constexpr std::uint64_t kMost = 1 << 16;
+    std::vector<Ray> rays(std::min(pixels.count(), kMost));
+    for (std::size_t i = 0; i < rays.size(); ++i) rays[i] = generator.ray(pixels.x(i), pixels.y(i));
+    const std::vector<RayAnswer> found = answers(rays);
     Met met;
-    std::vector<Ray> row(static_cast<std::size_t>(picture.width()));
-    for (int y = 0; y < picture.height(); ++y) {
-        for (int x = 0; x < picture.width(); ++x)
-            row[static_cast<std::size_t>(x)] = generator.ray(x, y);
-        const std::vector<RayAnswer> found = answers(row);
-        for (int x = 0; x < picture.width(); ++x) {
-            const RayAnswer& answer = found[static_cast<std::size_t>(x)];
-            if (!answer.hit) continue;
-            ++met.any;
-            const auto material = materials.find(answer.shape);
-            if (material == materials.end()) continue;
-            ++met.lit;
-            if (packed(picture.at(x, y)) != packed(quantized(material->second->emissive_color)))
-                ++met.alight;
-        }
+    met.asked = rays.size();
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        if (!found[i].hit) continue;
+        ++met.any;
+        const auto material = materials.find(found[i].shape);
+        if (material == materials.end()) continue;
+        ++met.lit;
+        if (packed(picture.at(pixels.x(i), pixels.y(i))) !=
+            packed(quantized(material->second->emissive_color)))
+            ++met.alight;
     }
     return met;
 }
@@ -95,14 +108,19 @@ Bounds3 bounds_of(const Scene& scene) {
     return box;
 }
 
-std::string nothing_met(const Scene& scene) {
+std::string nothing_met(const Scene& scene, const Met& met, std::size_t pixels) {
     const Bounds3 box = bounds_of(scene);
     if (box.empty()) return "no ray met anything: there is no shape to draw";
-    return format(
-        "no ray met anything: the shapes lie between %.6g %.6g %.6g and %.6g %.6g %.6g, the camera "
-        "is at %.6g %.6g %.6g (--viewpoint=fit looks at them)",
-        box.min.x, box.min.y, box.min.z, box.max.x, box.max.y, box.max.z, scene.camera.position.x,
-        scene.camera.position.y, scene.camera.position.z);
+    const std::string none =
+        met.asked == pixels
+            ? "no ray met anything"
+            : format("none of %zu rays, spread over the picture, met anything", met.asked);
+    return none +
+           format(
+               ": the shapes lie between %.6g %.6g %.6g and %.6g %.6g %.6g, the camera is at "
+               "%.6g %.6g %.6g (--viewpoint=fit looks at them)",
+               box.min.x, box.min.y, box.min.z, box.max.x, box.max.y, box.max.z,
+               scene.camera.position.x, scene.camera.position.y, scene.camera.position.z);
 }
 
 std::string all_dark(const Scene& scene) {
@@ -163,7 +181,7 @@ std::vector<std::string> remarks(const Scene& scene, const Profile& profile, con
     if (may.empty || may.dark) {
         const Met met = met_by(scene, picture, answers);
         if (met.any == 0)
-            lines.push_back(nothing_met(scene));
+            lines.push_back(nothing_met(scene, met, picture.pixels().size()));
         else if (may.dark && met.lit > 0 && met.alight == 0)
             lines.push_back(all_dark(scene));
     }

@@ -7,22 +7,37 @@ namespace {
 
 constexpr std::size_t kEntries = 4096;  // 400 kB; a power of two
 
-// n.(a - p), or -n.p where p is a direction.
+// The side is the sign of n.d = (e1 x e2).d for d = a - p, or -p where p is a direction.
 template <typename T>
-detail::Bounded<T> rounded_side(const Triangle& t, const Vector3& p, bool far) {
-    const Vec3<T> a(t.a);
-    const Vec3<T> e1 = Vec3<T>(t.b) - a;
-    const Vec3<T> e2 = Vec3<T>(t.c) - a;
-    return detail::triple_product(far ? -Vec3<T>(p) : a - Vec3<T>(p), cross(e1, e2),
-                                  detail::cross_magnitude(e1, e2));
-}
+struct SideVectors {
+    Vec3<T> e1, e2, d;
+
+    SideVectors(const Triangle& t, const Vector3& p, bool far)
+        : e1(Vec3<T>(t.b) - Vec3<T>(t.a)),
+          e2(Vec3<T>(t.c) - Vec3<T>(t.a)),
+          d(far ? -Vec3<T>(p) : Vec3<T>(t.a) - Vec3<T>(p)) {}
+    detail::Bounded<T> product() const {
+        return detail::triple_product(d, cross(e1, e2), detail::cross_magnitude(e1, e2));
+    }
+    // Each product has a factor 0, as in a plane across an axis: no difference rounds to 0.
+    bool vanish() const {
+        for (int k = 0; k < 3; ++k) {
+            const int i = (k + 1) % 3;
+            const int j = (k + 2) % 3;
+            if (d[k] != 0 && ((e1[i] != 0 && e2[j] != 0) || (e1[j] != 0 && e2[i] != 0)))
+                return false;
+        }
+        return true;
+    }
+};
 
 std::optional<int> sure_side(const Triangle& t, const Vector3& p, bool far) {
-    const detail::Bounded<double> cheap = rounded_side<double>(t, p, far);
-    if (cheap.sure()) return cheap.sign();
-    const detail::Bounded<long double> wider = rounded_side<long double>(t, p, far);
+    const SideVectors<double> cheap(t, p, far);
+    const detail::Bounded<double> product = cheap.product();
+    if (product.sure()) return product.sign();
+    if (cheap.vanish()) return 0;
+    const detail::Bounded<long double> wider = SideVectors<long double>(t, p, far).product();
     if (wider.sure()) return wider.sign();
-    if (wider.vanishes()) return 0;
     return std::nullopt;
 }
 

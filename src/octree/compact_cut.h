@@ -16,8 +16,11 @@ inline constexpr std::size_t kManyItems = 32;
 inline constexpr std::size_t kPrefetchAhead = 24;
 using BoxSpan = std::span<const Bounds3T<float>>;
 
-/// The planes for these items; none where no axis can be cut.
-std::optional<CutVoxel> choose_cut(CutRule rule, const Bounds3T<float>& voxel, ItemSpan items,
-                                   BoxSpan boxes);
+/// Axes of a voxel: those about as wide as the widest, or the widest of the others.
+enum class CutAxes : std::uint8_t { kWide, kNext };
+
+/// The planes for these items; none where none of the axes can be cut.
+std::optional<CutVoxel> choose_cut(CutRule rule, CutAxes axes, const Bounds3T<float>& voxel,
+                                   ItemSpan items, BoxSpan boxes);
 
 }  // namespace nuvo

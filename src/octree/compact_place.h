@@ -56,32 +56,37 @@ struct SplitMasks {
 /// The cut of a voxel with these items, if there is one that is worth trying; the octants of the
 /// items are then in masks.kept. `mark(cut, items, masks)` sets the octants and returns their
 /// counts. Where the sweep finds little, because it sees the items' boxes only, the centre is
-/// tried, too.
+/// tried, too; and where items as long as the voxel are not parted, the widest of the axes across
+/// them.
 template <typename Mark>
 std::optional<Split> find_split(const Recipe& recipe, const Place& place, ItemSpan items,
                                 SplitMasks& masks, Mark&& mark) {
     const Prices& prices = recipe.prices;
     constexpr double kLittle = 0.75;  // of the cost of a leaf; commonly half of it is left
-    if (place.level >= CompactOctree::kMaxDepth || !prices.may_pay(items.size()))
-        return std::nullopt;
-    if (masks.kept.size() < items.size()) masks.kept.resize(items.size());
-    const auto attempt = [&](CutRule by, std::vector<std::uint8_t>& out) -> std::optional<Split> {
-        const std::optional<CutVoxel> cut = choose_cut(by, place.voxel, items, recipe.boxes);
+    const std::size_t count = items.size();
+    if (place.level >= CompactOctree::kMaxDepth || !prices.may_pay(count)) return std::nullopt;
+    if (masks.kept.size() < count) masks.kept.resize(count);
+    const auto attempt = [&](CutRule by, CutAxes axes,
+                             std::vector<std::uint8_t>& out) -> std::optional<Split> {
+        const std::optional<CutVoxel> cut = choose_cut(by, axes, place.voxel, items, recipe.boxes);
         if (!cut) return std::nullopt;
         return Split{*cut, mark(*cut, items, out.data())};
     };
-    std::optional<Split> split = attempt(recipe.rule, masks.kept);
-    if (recipe.rule == CutRule::kSweep && items.size() >= kManyItems &&
-        (!split || prices.after(*split, items.size()) > kLittle * prices.leaf(items.size()))) {
-        if (masks.tried.size() < items.size()) masks.tried.resize(items.size());
-        const std::optional<Split> other = attempt(CutRule::kSpatial, masks.tried);
-        if (other &&
-            (!split || prices.after(*other, items.size()) < prices.after(*split, items.size()))) {
-            split = other;
-            std::swap(masks.kept, masks.tried);
-        }
-    }
-    if (!split || !place.allowance.permits(*split) || !prices.worth_trying(*split, items.size()))
+    std::optional<Split> split = attempt(recipe.rule, CutAxes::kWide, masks.kept);
+    const bool many = count >= kManyItems;
+    const auto try_another = [&](CutRule by, CutAxes axes) {
+        if (masks.tried.size() < count) masks.tried.resize(count);
+        const std::optional<Split> other = attempt(by, axes, masks.tried);
+        if (!other || (split && prices.after(*other, count) >= prices.after(*split, count))) return;
+        split = other;
+        std::swap(masks.kept, masks.tried);
+    };
+    if (many && recipe.rule == CutRule::kSweep &&
+        (!split || prices.after(*split, count) > kLittle * prices.leaf(count)))
+        try_another(CutRule::kSpatial, CutAxes::kWide);
+    if (many && (!split || !prices.worth_trying(*split, count)))
+        try_another(recipe.rule, CutAxes::kNext);
+    if (!split || !place.allowance.permits(*split) || !prices.worth_trying(*split, count))
         return std::nullopt;
     return split;
 }

@@ -69,13 +69,13 @@ class Crowd {
     const Front* front(const Point3& eye) const {
         return last_ && last_->listed && eye == eye_ ? &last_->list : nullptr;
     }
-    /// Among all items `winner` was nearest to a ray from `eye`.
-    void won(const Point3& eye, PrimitiveId winner) {
+    /// Among all items `winner` was nearest to a ray from `eye`, as so many tests told.
+    void won(const Point3& eye, PrimitiveId winner, std::size_t tests) {
         if (!(eye == eye_)) fronts_.clear();  // last_ with them
         eye_ = eye;
         last_ = &fronts_[winner];
         last_->list.first = winner;
-        if (!is_due(*last_)) return;
+        if (!is_due(*last_, tests)) return;
         for (const ItemId item : items_)
             if (item != winner && !kernel_.hides(winner, eye, item))
                 last_->list.rivals.push_back(item);
@@ -87,25 +87,32 @@ class Crowd {
     bool blocked(const typename Kernel::Shadow& shadow, Blocks&& blocks) {
         if (surely_missed(shadow.ray)) return false;
         if (usual_blocker_ && blocks(*usual_blocker_)) return true;
+        std::size_t tests = 0;
         const auto blocks_now = [&](ItemId item) {
+            ++tests;
             if (!blocks(item)) return false;
             usual_blocker_ = item;
             return true;
         };
-        const LeafBoxes* const shade = blockers(shadow);
-        if (shadow.light->kind != Light::Kind::kDirectional) {
-            const auto some = towards(shadow.light->location, -shadow.ray.direction());
-            if (some && (!shade || some->size() < shade->items().size()))
-                return std::any_of(some->begin(), some->end(), blocks_now);
-        }
-        return (shade ? *shade : boxes_)
-            .visit(
-                shadow.ray, [&] { return shadow.end; }, blocks_now);
+        Listed<LeafBoxes>* const shade = shade_of(shadow);
+        const bool listed = shade != nullptr && shade->listed;
+        const auto visit = [&] {
+            if (shadow.light->kind != Light::Kind::kDirectional) {
+                const auto some = towards(shadow.light->location, -shadow.ray.direction());
+                if (some && (!listed || some->size() < shade->list.items().size()))
+                    return std::any_of(some->begin(), some->end(), blocks_now);
+            }
+            return (listed ? shade->list : boxes_)
+                .visit(
+                    shadow.ray, [&] { return shadow.end; }, blocks_now);
+        };
+        const bool found = visit();
+        if (shade != nullptr && is_due(*shade, tests)) list_blockers(shadow, *shade);
+        return found;
     }
 
   private:
-    // A list costs as much as some rays against all items.
-    static constexpr int kPatience = 3;
+    static constexpr std::size_t kTestsOfList = 6;              // for each item that it is made of
     static constexpr std::size_t kRoom = std::size_t{1} << 20;  // items in all lists
 
     // Cells cost some ten thousand tests of an item; eyes and point lights are few.
@@ -121,27 +128,27 @@ class Crowd {
     template <typename List>
     struct Listed {
         List list;
-        int asked = 0;
+        std::size_t tests = 0;  // while it was not listed
         bool listed = false;
     };
-    // To be listed now.
+    // To be listed now, after so many tests more: when rays without a list have cost as much.
     template <typename List>
-    bool is_due(Listed<List>& entry) const {
-        if (entry.listed || ++entry.asked < kPatience || room_ == 0) return false;
-        return entry.listed = true;
+    bool is_due(Listed<List>& entry, std::size_t tests) const {
+        if (entry.listed) return false;
+        entry.tests += tests;
+        entry.listed = entry.tests >= kTestsOfList * items_.size() && room_ > 0;
+        return entry.listed;
     }
 
-    // What may block a way from the lit primitive to the light; none: ask all.
-    const LeafBoxes* blockers(const typename Kernel::Shadow& shadow) {
+    // Of what may block a way from the lit primitive to the light; null: nothing is listed of it.
+    Listed<LeafBoxes>* shade_of(const typename Kernel::Shadow& shadow) {
         if (!kernel_.lights_triangle(shadow)) return nullptr;
-        Listed<LeafBoxes>& shade = shades_[{*shadow.from, shadow.light}];
-        if (is_due(shade)) {
-            shade.list = LeafBoxes(boxes_, boxes_of_items_, [&](ItemId item) {
-                return !kernel_.leaves_in_light(item, shadow);
-            });
-            room_ -= std::min(room_, shade.list.items().size());
-        }
-        return shade.listed ? &shade.list : nullptr;
+        return &shades_[{*shadow.from, shadow.light}];
+    }
+    void list_blockers(const typename Kernel::Shadow& shadow, Listed<LeafBoxes>& shade) {
+        shade.list = LeafBoxes(boxes_, boxes_of_items_,
+                               [&](ItemId item) { return !kernel_.leaves_in_light(item, shadow); });
+        room_ -= std::min(room_, shade.list.items().size());
     }
 
     const Kernel& kernel_;

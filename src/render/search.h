@@ -174,17 +174,21 @@ class ExactSearch {
                 }
             }
             const auto before = best;
-            if (const auto some = crowd.towards(ray.origin(), ray.direction()))
+            std::size_t tests = 0;
+            if (const auto some = crowd.towards(ray.origin(), ray.direction())) {
+                tests = some->size();
                 test(ray, *some, best);
-            else
+            } else {
                 crowd.boxes().visit(
                     ray, [&] { return best ? kernel_.upper_t(*best) : Kernel::kInfinity; },
                     [&](ItemId item) {
+                        ++tests;
                         if (is_new(item)) kernel_.closest(ray, of_item(item), best);
                         return false;
                     });
+            }
             if (best && (!before || best->primitive != before->primitive))
-                crowd.won(ray.origin(), best->primitive);
+                crowd.won(ray.origin(), best->primitive, tests);
         }
     }
     bool blocked_by_crowd(const typename Kernel::Shadow& shadow, const Node& leaf) {

@@ -322,6 +322,25 @@ TEST(CompactBuild, AFlatSceneIsCutOnItsTwoAxes) {
         }
 }
 
+// Boards side by side, and sheets in a stack: nothing is parted along the wide axes.
+TEST(CompactBuild, ItemsAsLongAsTheSceneAreCutAcross) {
+    constexpr int kCount = 1000;
+    std::vector<Box> boards;
+    std::vector<Box> sheets;
+    for (int i = 0; i < kCount; ++i) {
+        const float from = 0.01F * static_cast<float>(i) / kCount - 0.005F;
+        const float to = from + 0.009F / kCount;
+        boards.push_back({{from, 0, -0.5F}, {to, 0, 0.5F}});
+        sheets.push_back({{-0.5F, -0.5F, 40 * from}, {0.5F, 0.5F, 40 * to}});
+    }
+    for (const std::vector<Box>& boxes : {boards, sheets}) {
+        const CompactOctree tree = build_compact_octree(boxes, {});
+        const Reader reader(tree);
+        for (const Leaf& leaf : reader.leaves()) EXPECT_LE(leaf.items.size(), kCount / 4);
+        EXPECT_LE(tree.items.size(), kCount * 5 / 4);
+    }
+}
+
 TEST(CompactBuild, SmallAndLargeScenesAreCutLikeOthers) {
     const std::vector<Box> boxes = random_boxes(12, 2000, 0.01F);
     for (const CutRule rule : kRules)

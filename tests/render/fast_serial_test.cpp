@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "fast/rays/single_ray.h"
+#include "fast/shadow/shadow_tables.h"
 #include "fast_cases.h"
 #include "nuvo/scene/x3d.h"
 
@@ -52,6 +53,33 @@ TEST(SerialTree, IsNotBuiltForOrdinaryScenes) {
         subject.hits(subject.rays());
         EXPECT_FALSE(subject.serial.is_built());
     }
+}
+
+// A bundle of thin cylinders stands in many voxels and in thousands of entries of each light's
+// lists; the serial tracer's octree would cost ten times the picture.
+TEST(SerialTree, IsNotBuiltForLongThinTriangles) {
+    std::mt19937_64 random(60);
+    std::string shapes;
+    for (int i = 0; i < 120; ++i) {
+        const auto number = [&](double least, double most) {
+            return std::to_string(uniform(random, least, most)) + " ";
+        };
+        shapes += "<Transform translation='" + number(-2, 2) + "0 " + number(-2, 2) +
+                  "' rotation='1 0 1 " + number(-0.2, 0.2) +
+                  "'><Shape><Appearance><Material/></Appearance><Cylinder radius='0.02' "
+                  "height='12'/></Shape></Transform>";
+    }
+    Subject subject(
+        x3d::read_text("<X3D version='3.3'><Scene><Viewpoint position='0 0 10'/>"
+                       "<PointLight location='3 8 10'/>" +
+                           shapes + "</Scene></X3D>",
+                       "scene"));
+    const ShadowTables tables(subject.fast, InstructionSet::kBest);
+    EXPECT_TRUE(tables.table(0).buffer.long_lists);
+    const Image expected = exact_picture(subject.scene, subject.primitives, kSize);
+    for (const ShadowListing listing : {ShadowListing::kAll, ShadowListing::kWanted})
+        EXPECT_EQ(difference(expected, subject.picture(1, listing)), "");
+    EXPECT_FALSE(subject.serial.is_built());
 }
 
 TEST(SerialTree, ServesPixelsThatFloatsTellNothingOf) {

@@ -41,7 +41,8 @@ class LightBufferMaker {
             for_each_face(first, [&](int face, const LightRanges& ranges, std::uint32_t lanes)
                                      HWY_ATTR { record(first, face, ranges, lanes); });
         }
-        if (add_up()) fill();
+        add_up();
+        fill();
     }
 
   private:
@@ -55,10 +56,9 @@ class LightBufferMaker {
     static constexpr double kLeastWide = 0.75;
     // Cells for each item on all faces: they have to be counted and added up.
     static constexpr double kMostCells = 2;
-    // Where an entry's list is longer than this on average the octree is faster.
-    static constexpr double kLongLists = 4096;
-    // And where it is longer than this they are sorted.
+    // Where an entry's list is longer than these on average, lists are sorted, or long.
     static constexpr double kListsToSort = 128;
+    static constexpr double kLongLists = 4096;
 
     // What points may be off, in the size of the middle item, and in that of points.
     static constexpr double kErrorShare = 0x1p-4;
@@ -243,9 +243,9 @@ class LightBufferMaker {
             for (std::uint32_t x = 0; x < record.columns; ++x) use(first + x, x, y);
     }
 
-    // Makes starts[c] the start of cell c; false: its lists are too long. Where they are long,
-    // what is near the light comes first: it blocks most.
-    bool add_up() {
+    // Makes starts[c] the start of cell c. In lists that are not short what is near the light comes
+    // first: it blocks most.
+    void add_up() {
         double squares = 0;
         for (std::size_t cell = 0; cell < cells_; ++cell) {
             const double length = out_.starts[cell + 1];
@@ -253,12 +253,8 @@ class LightBufferMaker {
             out_.starts[cell + 1] += out_.starts[cell];
         }
         const double entries = out_.starts[cells_];
-        if (squares > kLongLists * entries) {
-            out_.grids.clear();
-            return false;
-        }
         out_.near_first = squares > kListsToSort * entries;
-        return true;
+        out_.long_lists = squares > kLongLists * entries;
     }
     void fill() {
         out_.entries.resize(LightGroup::kWords *

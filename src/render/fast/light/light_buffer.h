@@ -100,7 +100,7 @@ struct LightBuffer {
     LightBuffer() = default;
     LightBuffer(const LightPoint& light, const LightItems& items, InstructionSet isa);
 
-    /// False where nothing may be looked up: the light is too far, or lists would be too long.
+    /// False where nothing may be looked up: the light is too far.
     bool usable() const { return !grids.empty(); }
     std::size_t memory_bytes() const {
         return (starts.size() + occupied.size() + entries.size()) * sizeof(std::uint32_t);
@@ -114,6 +114,7 @@ struct LightBuffer {
 
     LightMap map;
     bool near_first = false;           ///< lists longer than kRound are sorted by nearness
+    bool long_lists = false;           ///< a short walk of the octree is tried before
     std::vector<LightGrid> grids;      ///< from fine to coarse
     BigVector<std::uint32_t> starts;   ///< of the cells' lists, and the end
     BigVector<std::uint32_t> entries;  ///< in groups, and room for one more to be read

@@ -1,6 +1,7 @@
 #include "fast/shadow/shadow.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #undef HWY_TARGET_INCLUDE
@@ -26,15 +27,21 @@ class ShadowTracer {
 
     void run(const TileMask& wanted, TileMask& lit) {
         std::uint32_t unknown[kTileBlocks];
+        const bool walks_first = context_.table.buffer.long_lists;
         for (int b = 0; b < kTileBlocks; ++b) {
             unknown[b] = 0;
             if (wanted[b] == 0) continue;
             blocks_[b].start(context_, tile_, b, wanted[b]);
-            unknown[b] = wanted[b] & ~lookup_.add(b);
+            const std::uint32_t left = walks_first ? walk(b, wanted[b]) : wanted[b];
+            unknown[b] = left & ~lookup_.add(b, left);
         }
         lookup_.run();
-        for (int b = 0; b < kTileBlocks; ++b)
-            if (unknown[b] != 0) walk(blocks_[b], unknown[b]);
+        for (int b = 0; b < kTileBlocks; ++b) {
+            std::uint32_t left = unknown[b];
+            if (!walks_first && left != 0) left = walk(b, left);
+            for (; left != 0; left &= left - 1)
+                walk_alone(static_cast<std::uint32_t>(b * kBlockLanes + std::countr_zero(left)));
+        }
         settle();
         for (int b = 0; b < kTileBlocks; ++b)
             lit[b] = wanted[b] == 0 ? 0 : static_cast<std::uint16_t>(blocks_[b].waiting());
@@ -47,10 +54,14 @@ class ShadowTracer {
     static constexpr std::ptrdiff_t kMostOpenOfPoint = 32;
     // And where a beam meets more items than this.
     static constexpr std::size_t kMostTests = 512;
-    // Where more items of one leaf come near a ray what other rays have found of them is asked.
+    // Where a leaf holds more items, or more of one come near a ray, what other rays have found of
+    // them is asked.
+    static constexpr std::uint32_t kLarge = 256;
     static constexpr int kCrowded = 32;
 
-    HWY_NOINLINE void walk(ShadowBlock& block, std::uint32_t lanes) {
+    // All points of a block together; returns those of which it would cost too much.
+    HWY_NOINLINE std::uint32_t walk(int b, std::uint32_t lanes) {
+        ShadowBlock& block = blocks_[b];
         const ShadowTables& tables = context_.job.tables;
         const RayMask there = RayMask::from_bits(lanes);
         const Floats* const at[3] = {&block.points().x, &block.points().y, &block.points().z};
@@ -77,11 +88,9 @@ class ShadowTracer {
                               block.test_met(context_, items[i], lanes);
                       return (block.waiting() & lanes) == 0 || too_many();
                   });
-        if (!too_many()) return;
+        if (!too_many()) return 0;
         open.resize(open_before);
-        const auto b = static_cast<std::uint32_t>(&block - blocks_);
-        for (std::uint32_t rest = block.waiting() & lanes; rest != 0; rest &= rest - 1)
-            walk_alone(b * kBlockLanes + static_cast<std::uint32_t>(std::countr_zero(rest)));
+        return block.waiting() & lanes;
     }
 
     auto shadow_ray(std::uint32_t lane) const {
@@ -106,7 +115,8 @@ class ShadowTracer {
         if (fallback_.blocks(ray, lit)) return true;
         mailbox.seen(lit);
         const auto leaf = [&](const std::uint32_t* items, std::uint32_t count) {
-            if (!fallback_.may_visit()) return true;
+            if (count > kLarge) return fallback_.blocks_any(ray, {items, count});
+            if (!fallback_.may_visit(count)) return true;
             int near = 0;
             for (std::uint32_t i = 0; i < count; ++i) {
                 if (!context_.job.walk_planes.may_hide(context_.light, items[i]) ||

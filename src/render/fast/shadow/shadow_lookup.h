@@ -30,14 +30,13 @@ class ShadowLookup {
                                                                   : nullptr),
           blocks_(blocks) {}
 
-    /// Finds the cells of block b's points; returns which lanes can be looked up.
-    HWY_INLINE std::uint32_t add(int b) {
-        if (!buffer_.usable()) return 0;
+    /// Finds the cells of points of block b; returns which of these lanes can be looked up.
+    HWY_INLINE std::uint32_t add(int b, std::uint32_t wanted) {
+        if (!buffer_.usable() || wanted == 0) return 0;
         const ShadowBlock& block = blocks_[b];
         const LightPlaces places(buffer_.map, context_.table.light, block.points(), block.error());
         const std::uint32_t asked =
-            counted_ == nullptr ? block.waiting()
-                                : covered(*counted_, places, block.error(), block.waiting());
+            counted_ == nullptr ? wanted : covered(*counted_, places, block.error(), wanted);
         const std::uint32_t good = asked & places.good;
         alignas(64) std::int32_t cell[16];
         for (const LightGrid& grid : buffer_.grids) {

@@ -68,8 +68,8 @@ class ExactFallback {
 
     /// How many tests of a primitive may be asked for in all; not called: any number.
     void allow(std::uint64_t tests) { allowed_ = kLeavesOfTest * tests; }
-    /// A walk for a single ray came to one more leaf; false: it may end.
-    bool may_visit() const { return may_spend(1); }
+    /// A walk for a single ray came to one more leaf, of so many items; false: it may end.
+    bool may_visit(std::uint32_t items) const { return may_spend(1 + kLookAtItem * items); }
     /// More were asked for, then or once before: the last answers may have been wrong.
     bool is_exhausted() const { return is_exhausted_; }
 
@@ -107,6 +107,7 @@ class ExactFallback {
 
     // What counts is leaves: so many cost as much as a test.
     static constexpr std::uint64_t kLeavesOfTest = 32;
+    static constexpr std::uint64_t kLookAtItem = 2;
     bool may_test() const { return may_spend(kLeavesOfTest); }
     bool may_spend(std::uint64_t leaves) const {
         spent_ += leaves;

@@ -48,9 +48,11 @@ class SerialTree {
 /// What the octree and so many rays of the serial tracer cost, about, in exact tests of a
 /// primitive.
 inline std::uint64_t serial_cost(std::uint64_t rays, const FastScene& scene) {
-    constexpr std::uint64_t kTestsARay = 4;
+    constexpr std::uint64_t kTestsARay = 64;
     constexpr std::uint64_t kTestsAnItem = 64;
-    return kTestsARay * rays + kTestsAnItem * scene.slot_end();
+    constexpr std::uint64_t kTestsAReference = 24;  // of the compact octree, which has about as many
+    return kTestsARay * rays + kTestsAnItem * scene.slot_end() +
+           kTestsAReference * scene.octree().items.size();
 }
 
 }  // namespace nuvo
