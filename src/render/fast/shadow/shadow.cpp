@@ -53,7 +53,7 @@ class ShadowTracer {
     static constexpr std::size_t kMostOpenOfBeam = 128;
     static constexpr std::ptrdiff_t kMostOpenOfPoint = 32;
     // And where a beam meets more items than this.
-    static constexpr std::size_t kMostTests = 512;
+    static constexpr std::size_t kMostTests = 1024;
     // Where a leaf holds more items, or more of one come near a ray, what other rays have found of
     // them is asked.
     static constexpr std::uint32_t kLarge = 256;
