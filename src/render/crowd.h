@@ -114,6 +114,7 @@ class Crowd {
   private:
     static constexpr std::size_t kTestsOfList = 6;              // for each item that it is made of
     static constexpr std::size_t kRoom = std::size_t{1} << 20;  // items in all lists
+    static constexpr std::size_t kRoomOfShade = 32;             // a list itself, in items
 
     // Cells cost some ten thousand tests of an item; eyes and point lights are few.
     static constexpr int kRaysForCells = 256;
@@ -140,9 +141,14 @@ class Crowd {
         return entry.listed;
     }
 
-    // Of what may block a way from the lit primitive to the light; null: nothing is listed of it.
+    // Of what may block a way from the lit primitive to the light; null: nothing is listed of it,
+    // nor will be.
     Listed<LeafBoxes>* shade_of(const typename Kernel::Shadow& shadow) {
         if (!kernel_.lights_triangle(shadow)) return nullptr;
+        const auto known = shades_.find({*shadow.from, shadow.light});
+        if (known != shades_.end()) return &known->second;
+        if (room_ < kRoomOfShade) return nullptr;
+        room_ -= kRoomOfShade;
         return &shades_[{*shadow.from, shadow.light}];
     }
     void list_blockers(const typename Kernel::Shadow& shadow, Listed<LeafBoxes>& shade) {

@@ -229,20 +229,22 @@ class Frame::Worker {
         clock.add_to(spent_.shading);
     }
 
-    // As many as the serial tracer's whole part of the picture would cost, so that none takes more
-    // than twice as long as there: early on fewer, where that would not do by far, and towards the
-    // end more, where the rest is likely to cost less than it would there.
+    // The thread's share of what the serial tracer would cost, so that no picture takes more than
+    // twice as long as there: early on fewer, where that would not do by far, and towards the end
+    // more, where the rest is likely to cost less than it would there.
     std::uint64_t allowed_tests() const {
         constexpr double kFar = 4;
         const auto threads = static_cast<std::uint64_t>(options_.threads);
+        const auto cost = [&](std::uint64_t pixels) {
+            return static_cast<double>(serial_cost(pixels * threads, scene_) / threads);
+        };
         const std::uint64_t part = pixel_count(tables_.rays.resolution) / threads + 1;
         const std::uint64_t left =
             std::max<std::uint64_t>(part, found_ + kMacroSide * kMacroSide) - found_;
         const auto found = static_cast<double>(found_);
-        const auto all = static_cast<double>(serial_cost(part, scene_));
-        const auto rest = static_cast<double>(serial_cost(left, scene_));
+        const double all = cost(part);
         const double early = all * (1 / kFar + kFar * found / static_cast<double>(part));
-        const double late = rest * found / static_cast<double>(left);
+        const double late = cost(left) * found / static_cast<double>(left);
         return static_cast<std::uint64_t>(std::clamp(late, std::min(early, all), 2 * all));
     }
     void give_up_if_exhausted() {

@@ -76,7 +76,8 @@ std::vector<RayAnswer> SingleRays::closest_hits(std::span<const Ray> rays, Progr
 std::optional<RayCandidate> SingleRays::decide(const Ray& ray, const RayLanes& lanes,
                                                std::size_t lane,
                                                std::span<const RayCandidate> candidates) {
-    tests_ += candidates.size();
+    constexpr std::uint64_t kTestsOfCandidate = 4;
+    tests_ += kTestsOfCandidate * candidates.size();
     std::array<Slot, RayState::kMaxCandidates> slots;
     std::size_t count = 0;
     for (const RayCandidate& candidate : candidates) slots[count++] = candidate.slot;

@@ -12,7 +12,7 @@ constexpr float kRounded = 2 * std::numeric_limits<float>::epsilon();
 
 std::optional<ExactFallback::Nearest> ExactFallback::nearer(int x, int y, Slot slot,
                                                             Slot other) const {
-    if (!may_test()) return std::nullopt;
+    if (!may_test(kTestsOfPixel * tests_of(slot))) return std::nullopt;
     const Ray ray = camera_.rays.ray(x, y);
     const ExactRay prepared = kernel_.prepare(ray);
     const auto hit = kernel_.hit_of(prepared, scene_.id(slot));
@@ -47,8 +47,9 @@ ExactFallback::Kernel::Shadow ExactFallback::shadow_ray(int x, int y, Slot lit,
 bool ExactFallback::blocks_any(const Kernel::Shadow& ray, std::span<const Slot> leaf) const {
     LargeLeaf& large = large_leaves_.try_emplace(leaf.data(), scene_, kernel_, leaf).first->second;
     return large.crowd.blocked(ray, [&](PrimitiveId id) {
-        if (!may_test()) return true;
-        const bool triangle = kind_of(scene_.object(id).shape) == PrimitiveKind::kTriangle;
+        const PrimitiveKind kind = kind_of(scene_.object(id).shape);
+        if (!may_test(kind == PrimitiveKind::kEllipsoid ? kTestsOfEllipsoid : 1)) return true;
+        const bool triangle = kind == PrimitiveKind::kTriangle;
         return (!triangle || box_comes_near(ray, id)) && kernel_.blocks(ray, {id, id + 1});
     });
 }

@@ -56,7 +56,8 @@ class ExactFallback {
     /// which a box tells at less cost.
     bool blocks(const Kernel::Shadow& ray, Slot occluder) const {
         const PrimitiveId id = scene_.id(occluder);
-        return comes_near(ray, occluder) && (!may_test() || kernel_.blocks(ray, {id, id + 1}));
+        return comes_near(ray, occluder) &&
+               (!may_test(tests_of(occluder)) || kernel_.blocks(ray, {id, id + 1}));
     }
     /// Whether `occluder` may do so, by its box.
     bool comes_near(const Kernel::Shadow& ray, Slot occluder) const {
@@ -108,7 +109,13 @@ class ExactFallback {
     // What counts is leaves: so many cost as much as a test.
     static constexpr std::uint64_t kLeavesOfTest = 32;
     static constexpr std::uint64_t kLookAtItem = 2;
-    bool may_test() const { return may_spend(kLeavesOfTest); }
+    // A pixel's ray is made, meets two primitives, and these are compared.
+    static constexpr std::uint64_t kTestsOfPixel = 4;
+    static constexpr std::uint64_t kTestsOfEllipsoid = 4;
+    std::uint64_t tests_of(Slot slot) const {
+        return slot < scene_.sphere_end() ? 1 : kTestsOfEllipsoid;
+    }
+    bool may_test(std::uint64_t tests) const { return may_spend(kLeavesOfTest * tests); }
     bool may_spend(std::uint64_t leaves) const {
         spent_ += leaves;
         if (spent_ > allowed_) is_exhausted_ = true;

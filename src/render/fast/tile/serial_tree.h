@@ -50,7 +50,7 @@ class SerialTree {
 inline std::uint64_t serial_cost(std::uint64_t rays, const FastScene& scene) {
     constexpr std::uint64_t kTestsARay = 64;
     constexpr std::uint64_t kTestsAnItem = 64;
-    constexpr std::uint64_t kTestsAReference = 24;  // of the compact octree, which has about as many
+    constexpr std::uint64_t kTestsAReference = 24;  // of the compact octree
     return kTestsARay * rays + kTestsAnItem * scene.slot_end() +
            kTestsAReference * scene.octree().items.size();
 }
