@@ -17,6 +17,7 @@ void arcs(const float* x, float* out) { arc_cosine(Floats::load(x)).store(out); 
 void arc_sines(const float* x, float* out) { arc_sine(Floats::load(x)).store(out); }
 void inverse_roots(const float* x, float* out) { inverse_sqrt(Floats::load(x)).store(out); }
 void reciprocals(const float* x, float* out) { reciprocal(Floats::load(x)).store(out); }
+void rounded(const double* x, float* out) { floats_from(Doubles::load(x)).store(out); }
 
 }  // namespace nuvo::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -39,6 +40,18 @@ namespace {
 constexpr int kLanes = 16;
 constexpr double kUnit = 0x1p-24;
 using Unary = void (*)(const float*, float*);
+
+TEST(VectorMath, DoublesBeyondFloatsBecomeInfinite) {
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    for (const InstructionSet isa : supported_instruction_sets()) {
+        const double x[kLanes] = {1e300, -1e300, 1.5, -1e-300, 3.5e38, -3.5e38, 0x1.fffffefp127};
+        float y[kLanes];
+        (NUVO_FOR_ISA(isa, rounded))(x, y);
+        const float expected[kLanes] = {kInfinity, -kInfinity, 1.5F,           -0.0F,
+                                        kInfinity, -kInfinity, 0x1.fffffep127F};
+        for (int lane = 0; lane < kLanes; ++lane) EXPECT_EQ(y[lane], expected[lane]);
+    }
+}
 
 /// The largest of error(x, f(x)) over numbers made by `make(i)`.
 template <typename Make, typename Error>

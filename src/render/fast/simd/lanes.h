@@ -313,11 +313,17 @@ using OctantFloats = Lanes<float, 8>;  ///< one number for each of 8 octants
 using Doubles = Lanes<double, 16>;     ///< Floats' lanes
 
 /// Doubles of one register rounded to the nearest float, beyond floats infinite. Of these the
-/// portable target would make the largest float, which is no bound.
+/// portable targets (EMU128 of clang, SCALAR of g++ 12) would make the largest float, which is no
+/// bound.
 template <typename Tag, typename Vector>
 HWY_INLINE auto to_floats(Tag tag, const Vector& v) {
-#if HWY_TARGET == HWY_SCALAR
-    return hn::Set(tag, static_cast<float>(hn::GetLane(v)));
+#if HWY_TARGET == HWY_SCALAR || HWY_TARGET == HWY_EMU128
+    constexpr std::size_t kLanes = hn::MaxLanes(Tag());
+    double from[kLanes];
+    float to[kLanes];
+    hn::StoreU(v, hn::Rebind<double, Tag>(), from);
+    for (std::size_t i = 0; i < kLanes; ++i) to[i] = static_cast<float>(from[i]);
+    return hn::LoadU(tag, to);
 #else
     return hn::DemoteTo(tag, v);
 #endif
