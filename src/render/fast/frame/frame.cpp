@@ -148,8 +148,11 @@ class Frame::Worker {
         macro.y = place.row * kMacroSide;
         if (tables_.is_serial) return;
         StageClock clock(clocked_);
-        found_ += kMacroSide * kMacroSide;
-        if (options_.redo_exactly) fallback_.allow(allowed_tests());
+        constexpr std::uint64_t kPixels = kMacroSide * kMacroSide;
+        found_ += kPixels;
+        if (options_.redo_exactly)
+            fallback_.allow(allowed_tests(scene_, pixel_count(tables_.rays.resolution),
+                                          options_.threads, found_, kPixels));
         primary_.trace(job_, macro, quadrics);
         give_up_if_exhausted();
         clock.add_to(spent_.primary);
@@ -229,24 +232,6 @@ class Frame::Worker {
         clock.add_to(spent_.shading);
     }
 
-    // The thread's share of what the serial tracer would cost, so that no picture takes more than
-    // twice as long as there: early on fewer, where that would not do by far, and towards the end
-    // more, where the rest is likely to cost less than it would there.
-    std::uint64_t allowed_tests() const {
-        constexpr double kFar = 4;
-        const auto threads = static_cast<std::uint64_t>(options_.threads);
-        const auto cost = [&](std::uint64_t pixels) {
-            return static_cast<double>(serial_cost(pixels * threads, scene_) / threads);
-        };
-        const std::uint64_t part = pixel_count(tables_.rays.resolution) / threads + 1;
-        const std::uint64_t left =
-            std::max<std::uint64_t>(part, found_ + kMacroSide * kMacroSide) - found_;
-        const auto found = static_cast<double>(found_);
-        const double all = cost(part);
-        const double early = all * (1 / kFar + kFar * found / static_cast<double>(part));
-        const double late = cost(left) * found / static_cast<double>(left);
-        return static_cast<std::uint64_t>(std::clamp(late, std::min(early, all), 2 * all));
-    }
     void give_up_if_exhausted() {
         if (fallback_.is_exhausted()) tables_.is_serial = true;
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <mutex>
@@ -53,6 +54,26 @@ inline std::uint64_t serial_cost(std::uint64_t rays, const FastScene& scene) {
     constexpr std::uint64_t kTestsAReference = 24;  // of the compact octree
     return kTestsARay * rays + kTestsAnItem * scene.slot_end() +
            kTestsAReference * scene.octree().items.size();
+}
+
+/// How many exact tests one of the threads that share a picture's pixels may have asked for when it
+/// has found so many of them, `step` at a time. Its share of what the serial tracer would cost, so
+/// that no picture takes more than twice as long as there: early on fewer, where that would not do
+/// by far, and towards the end more, where the rest is likely to cost less than it would there.
+inline std::uint64_t allowed_tests(const FastScene& scene, std::uint64_t pixels, int thread_count,
+                                   std::uint64_t found, std::uint64_t step) {
+    constexpr double kFar = 4;
+    const auto threads = static_cast<std::uint64_t>(thread_count);
+    const auto cost = [&](std::uint64_t rays) {
+        return static_cast<double>(serial_cost(rays * threads, scene) / threads);
+    };
+    const std::uint64_t part = pixels / threads + 1;
+    const std::uint64_t left = std::max(part, found + step) - found;
+    const auto done = static_cast<double>(found);
+    const double all = cost(part);
+    const double early = all * (1 / kFar + kFar * done / static_cast<double>(part));
+    const double late = cost(left) * done / static_cast<double>(left);
+    return static_cast<std::uint64_t>(std::clamp(late, std::min(early, all), 2 * all));
 }
 
 }  // namespace nuvo
