@@ -66,13 +66,14 @@ inline void expect_identical(const Scene& scene, const std::vector<Resolution>& 
                 FastTracer tracer(scene, primitives, options);
                 const FastScene fast(scene, primitives, type, count);
                 SerialTree serial(fast);
-                KeptTables kept[3];
+                KeptTables kept[4];
                 for (std::size_t i = 0; i < (count == 1 ? sizes.size() : 1); ++i) {
                     EXPECT_EQ(difference(expected[i], tracer.render(sizes[i])), "")
                         << text(options, sizes[i]);
                     if (!Frame::can_show(fast)) continue;
                     for (const ShadowListing listing :
-                         {ShadowListing::kAll, ShadowListing::kWanted, ShadowListing::kKept})
+                         {ShadowListing::kAll, ShadowListing::kWanted, ShadowListing::kKept,
+                          ShadowListing::kByLight})
                         EXPECT_EQ(difference(expected[i],
                                              Frame(serial, options, sizes[i], nullptr,
                                                    kept[static_cast<int>(listing) - 1], listing)

@@ -14,8 +14,10 @@ namespace nuvo {
 
 /// For which items shadows are made: for all before the first pixel, or, once it is known what all
 /// pixels show, for those that may stand before some lit point; kKept: as for another picture, if
-/// that is kept. Pictures are the same.
-enum class ShadowListing : std::uint8_t { kMeasured, kAll, kWanted, kKept };
+/// that is kept; kByLight: for one light after the other. Pictures are the same.
+enum class ShadowListing : std::uint8_t { kMeasured, kAll, kWanted, kKept, kByLight };
+
+class StageClock;
 
 /// All that one picture needs, and the loop over its tiles.
 class Frame {
@@ -41,13 +43,17 @@ class Frame {
     template <typename Work>
     void for_each_tile(Work&& work);
     void find_hits();
-    void make_tables_of_hits();
+    void make_tables_of_hits(StageClock& clock);
     template <typename Use>
     void for_some_points(Use&& use);
     bool serves(const ShadowTables& kept);
     std::vector<char> listed_lights();
-    std::vector<std::optional<WantedDepths>> find_wanted(const std::vector<char>& lights,
-                                                         bool and_near);
+    std::vector<std::optional<WantedDepths>> find_wanted(const std::vector<char>& listed,
+                                                         LightRange lights, bool and_near);
+    std::vector<LightRange> groups_of(const std::vector<char>& listed) const;
+    void find_lit(const std::vector<char>& listed, const std::vector<LightRange>& groups,
+                  StageClock& clock);
+    LightRange all_lights() const { return {0, scene_.scene().lights.size()}; }
 
     SerialTree& serial_;
     const FastScene& scene_;

@@ -31,6 +31,7 @@ class KeptTables {
     bool serve_all_of(const Camera& camera, Resolution resolution) const {
         return shadows_ && camera_ == camera && resolution_ == resolution;
     }
+    void forget_shadows() { shadows_.reset(); }
     /// Frees the shadow tables that are kept, and keeps what `make` returns instead.
     template <typename Make>
     const ShadowTables& keep_shadows(const Camera& camera, Resolution resolution, Make&& make) {

@@ -46,8 +46,12 @@ void ShadowTable::hold_triangles(Slot count) {
 }
 
 ShadowTables::ShadowTables(const FastScene& scene, InstructionSet isa, int threads,
-                           std::vector<std::optional<WantedDepths>> wanted)
-    : scene_(scene), isa_(isa), threads_(threads), dense_(rounded_up(scene.frame().dense)) {
+                           std::vector<std::optional<WantedDepths>> wanted, LightRange lights)
+    : scene_(scene),
+      isa_(isa),
+      threads_(threads),
+      lights_(lights),
+      dense_(rounded_up(scene.frame().dense)) {
     make_tables();
     for_each_part(threads, quadrics_.size(), [&](std::size_t begin, std::size_t end) {
         take_quadrics(scene.quadrics().subspan(begin, end - begin));
@@ -56,7 +60,7 @@ ShadowTables::ShadowTables(const FastScene& scene, InstructionSet isa, int threa
     std::vector<std::size_t> listed;
     std::vector<std::size_t> whole;
     for (std::size_t light = 0; light < tables_.size(); ++light) {
-        if (!scene.scene().lights[light].casts_shadow) continue;
+        if (!serves(light)) continue;
         forget_outside(tables_[light]);
         if (wanted[light]) {
             list_wanted(tables_[light], light, std::move(*wanted[light]));
@@ -65,9 +69,9 @@ ShadowTables::ShadowTables(const FastScene& scene, InstructionSet isa, int threa
             whole.push_back(light);
         }
     }
-    const auto fill_buffers = [&](const std::vector<std::size_t>& lights) {
-        for_each_index(threads, lights.size(),
-                       [&](std::size_t i, int) { fill_buffer(tables_[lights[i]]); });
+    const auto fill_buffers = [&](const std::vector<std::size_t>& some) {
+        for_each_index(threads, some.size(),
+                       [&](std::size_t i, int) { fill_buffer(tables_[some[i]]); });
     };
     fill_buffers(listed);
     make_planes_of_all();
@@ -82,9 +86,10 @@ void ShadowTables::make_tables() {
     plane_error_ = rounded_up(2 * touch_ + kFloatUnderflow);
     quadric_touch_ = rounded_up(kTouch * touch_ + kFloatUnderflow);
     quadrics_.resize(scene_.slot_end() - scene_.triangle_end());
-    for (const Light& light : scene_.scene().lights) {
-        ShadowTable& table = tables_.emplace_back(LightPoint(light, scene_.frame()));
-        if (!light.casts_shadow) continue;
+    const std::vector<Light>& lights = scene_.scene().lights;
+    for (std::size_t light = 0; light < lights.size(); ++light) {
+        ShadowTable& table = tables_.emplace_back(LightPoint(lights[light], scene_.frame()));
+        if (!serves(light)) continue;
         if (!outside_of_all(table.light) || !scene_.primitives().all_cast_shadows)
             table.quadric_sides.resize(quadrics_.size());
     }
@@ -94,7 +99,7 @@ void ShadowTables::make_planes_of_all() {
     std::vector<std::size_t> lights;
     for (std::size_t light = 0; light < tables_.size(); ++light) {
         ShadowTable& table = tables_[light];
-        if (!table.complete || !scene_.scene().lights[light].casts_shadow) continue;
+        if (!table.complete || !serves(light)) continue;
         table.hold_triangles(scene_.triangle_end());
         lights.push_back(light);
     }

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "fast/light/light_buffer.h"
@@ -47,16 +48,28 @@ struct ShadowTable {
     LightBuffer buffer;
 };
 
+/// Lights [first, last) of a scene.
+struct LightRange {
+    std::size_t first;
+    std::size_t last;
+
+    bool has(std::size_t light) const { return first <= light && light < last; }
+};
+
 /// What the shadow stage needs of scene and lights, shared by all threads.
 class ShadowTables {
   public:
     /// Of what may stand before the wanted points of each light; of all where these are not given.
     explicit ShadowTables(const FastScene& scene, InstructionSet isa, int threads = 1,
-                          std::vector<std::optional<WantedDepths>> wanted = {});
+                          std::vector<std::optional<WantedDepths>> wanted = {})
+        : ShadowTables(scene, isa, threads, std::move(wanted), {0, scene.scene().lights.size()}) {}
+    /// Of some lights.
+    ShadowTables(const FastScene& scene, InstructionSet isa, int threads,
+                 std::vector<std::optional<WantedDepths>> wanted, LightRange lights);
 
     const FastScene& scene() const { return scene_; }
     InstructionSet isa() const { return isa_; }
-    /// Of light i; empty where it casts no shadow.
+    /// Of light i; empty where it casts no shadow or is none of these.
     const ShadowTable& table(std::size_t light) const { return tables_[light]; }
     const LocalSphere& quadric(Slot slot) const { return quadrics_[slot - scene_.triangle_end()]; }
     bool has_quadrics() const { return !quadrics_.empty(); }
@@ -75,6 +88,9 @@ class ShadowTables {
     std::size_t memory_bytes() const;
 
   private:
+    bool serves(std::size_t light) const {
+        return lights_.has(light) && scene_.scene().lights[light].casts_shadow;
+    }
     void make_tables();
     void take_quadrics(QuadricSpan quadrics);
     void make_planes_of_all();
@@ -91,6 +107,7 @@ class ShadowTables {
     const FastScene& scene_;
     InstructionSet isa_;
     int threads_;
+    LightRange lights_;
     double touch_;  // bounds SurfacePoint::error, in the local frame
     float dense_;
     float plane_error_;
