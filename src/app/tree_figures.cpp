@@ -48,10 +48,9 @@ LeafHistogram histogram(const CompactOctree& octree) {
                         node.item_count());
             continue;
         }
-        for (unsigned octant = 0; octant < 8; ++octant) {
-            if ((node.mask() >> octant & 1) == 0) continue;
-            open.push_back({node.child(octant), level + 1, octant_box(box, node.cut, octant)});
-        }
+        node.for_each_child(box, [&](std::uint32_t child, const Bounds3T<float>& its_box) {
+            open.push_back({child, level + 1, its_box});
+        });
     }
     return all;
 }

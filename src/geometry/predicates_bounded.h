@@ -22,20 +22,8 @@ constexpr T underflow_of() {
 }
 
 template <typename T>
-Vec3<T> magnitude(const Vec3<T>& v) {
-    return {std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)};
-}
-template <typename T>
 T sum(const Vec3<T>& v) {
     return v.x + v.y + v.z;
-}
-
-/// Componentwise |p| x |q| with every product added: bounds the cross product's roundings.
-template <typename T>
-Vec3<T> cross_magnitude(const Vec3<T>& p, const Vec3<T>& q) {
-    const Vec3<T> s = magnitude(p);
-    const Vec3<T> t = magnitude(q);
-    return {s.y * t.z + s.z * t.y, s.z * t.x + s.x * t.z, s.x * t.y + s.y * t.x};
 }
 
 /// A value with its error bound. A NaN or infinite bound: nothing is known.

@@ -55,13 +55,13 @@ RoundedQuadratic rounded_quadratic(const ExactRay& ray, const Ellipsoid& ellipso
 Bounded<double> rounded_touch_band(const RoundedQuadratic& q, const Ellipsoid& ellipsoid,
                                    double origin_error) {
     const BoundedMatrix adjugate = bounded_adjugate(ellipsoid.linear);
-    const Vector3 rho{sum(magnitude(adjugate.value.row[0])), sum(magnitude(adjugate.value.row[1])),
-                      sum(magnitude(adjugate.value.row[2]))};
+    const Vector3 rho{norm1(adjugate.value.row[0]), norm1(adjugate.value.row[1]),
+                      norm1(adjugate.value.row[2])};
     const double size = sum(adjugate.magnitude.row[0]) + sum(adjugate.magnitude.row[1]) +
                         sum(adjugate.magnitude.row[2]);
     // rho is known within gamma(8) of its bound, f within its part of c's.
     return {origin_error * (2 * dot(rho, magnitude(q.f)) + origin_error * dot(rho, rho)),
-            gamma(32) * origin_error * size * (sum(magnitude(q.f)) + origin_error * size) +
+            gamma(32) * origin_error * size * (norm1(q.f) + origin_error * size) +
                 2 * origin_error * size * q.offset_error};
 }
 
@@ -105,9 +105,8 @@ SurfacePoint surface_point(const ExactRay& ray, const Ellipsoid& ellipsoid, Sphe
     const BoundedMatrix adjugate = bounded_adjugate(m);
     const double determinant = dot(m.row[0], adjugate.value.column(0));
     const double shape = dot(magnitude(m.row[0]), adjugate.magnitude.column(0));
-    const double reach = max_norm(Vector3{sum(magnitude(m.row[0])), sum(magnitude(m.row[1])),
-                                          sum(magnitude(m.row[2]))}) *
-                         ellipsoid.radius;
+    const double reach =
+        max_norm(Vector3{norm1(m.row[0]), norm1(m.row[1]), norm1(m.row[2])}) * ellipsoid.radius;
     const double relative = rounded.error / (std::fabs(determinant) * ellipsoid.radius);
     const double half_the_digits = std::sqrt(kUnitRoundoff);
     // Well shaped: the determinant's sign, and half its digits, are known.

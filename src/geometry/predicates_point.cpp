@@ -20,12 +20,10 @@ bool try_surface_point(const ExactRay& ray, const Triangle& t, SurfacePoint& res
     const Vec3<T> e1 = Vec3<T>(t.b) - a;
     const Vec3<T> e2 = Vec3<T>(t.c) - a;
     const Vec3<T> normal = cross(e1, e2);
-    const Vec3<T> normal_magnitude = detail::cross_magnitude(e1, e2);
+    const Vec3<T> normal_magnitude = cross_magnitude(e1, e2);
     const Bounded<T> s = detail::triple_product(d, -normal, normal_magnitude);
-    const Bounded<T> v =
-        detail::triple_product(d, cross(from, e2), detail::cross_magnitude(from, e2));
-    const Bounded<T> w =
-        detail::triple_product(d, cross(e1, from), detail::cross_magnitude(e1, from));
+    const Bounded<T> v = detail::triple_product(d, cross(from, e2), cross_magnitude(from, e2));
+    const Bounded<T> w = detail::triple_product(d, cross(e1, from), cross_magnitude(e1, from));
     const T x = clamped(v.value / s.value);
     const T y = clamped(w.value / s.value);
     // Errors of the two weights, then of the point. [numerics: surface points]
@@ -40,7 +38,7 @@ bool try_surface_point(const ExactRay& ray, const Triangle& t, SurfacePoint& res
                    kUnderflow;
     const double corners = std::fmax(max_norm(t.a), std::fmax(max_norm(t.b), max_norm(t.c)));
     // The normal keeps half its digits at least: its error is gamma(4) times the magnitudes.
-    const T length1 = detail::sum(detail::magnitude(normal));
+    const T length1 = norm1(normal);
     const bool well_shaped = detail::gamma_of<T>(4) * detail::sum(normal_magnitude) <
                                  static_cast<T>(std::sqrt(kUnitRoundoff)) * length1 &&
                              length1 > static_cast<T>(detail::kSmallestSquare) &&

@@ -94,7 +94,7 @@ inline BoundedMatrix bounded_adjugate(const Matrix3& m) {
 inline Bounded<double> determinant(const Matrix3& m, const BoundedMatrix& adjugate) {
     return {dot(m.row[0], adjugate.value.column(0)),
             gamma(8) * dot(magnitude(m.row[0]), adjugate.magnitude.column(0)) +
-                64 * kUnderflow * (sum(magnitude(m.row[0])) + 1)};
+                64 * kUnderflow * (norm1(m.row[0]) + 1)};
 }
 
 /// A vector with a bound of its error in 2-norm.
@@ -106,7 +106,7 @@ struct BoundedVector {
 /// m * v for v known within a roundoff: 2 (m) + 1 (v) + 3 (dot product) roundings, and underflow.
 inline BoundedVector product(const BoundedMatrix& m, const Vector3& v) {
     return {m.value * v,
-            gamma(8) * sum(m.magnitude * magnitude(v)) + 64 * kUnderflow * (sum(magnitude(v)) + 1)};
+            gamma(8) * sum(m.magnitude * magnitude(v)) + 64 * kUnderflow * (norm1(v) + 1)};
 }
 
 /// The sign of t_a - t_b for two hits on quadrics, where doubles are sure of it.

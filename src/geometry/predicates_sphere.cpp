@@ -39,7 +39,7 @@ std::optional<SphereHit> sphere_hit(const ExactRay& ray, const Sphere& sphere, S
 }
 
 Bounded<double> rounded_touch_band(const RoundedQuadratic& q, const Sphere&, double origin_error) {
-    const double band = origin_error * (2 * sum(magnitude(q.f)) + 3 * origin_error);
+    const double band = origin_error * (2 * norm1(q.f) + 3 * origin_error);
     return {band, gamma(8) * band};
 }
 

@@ -37,13 +37,13 @@ Outcome try_blocks(const ExactRay& shadow, double end, double origin_error,
     const T high = (std::fabs(n.value) + n.error) * kUp;
     const T far = static_cast<T>(end);
     if (low > far * (std::fabs(d.value) + d.error) * kUp + tiny) return Outcome::kNo;
-    const T norm1 = sum(magnitude(plane.normal));
+    const T normal_norm1 = norm1(plane.normal);
     const T norm1_error = gamma_of<T>(8) * sum(plane.normal_magnitude) + 16 * tiny;
     const T error = static_cast<T>(origin_error);
-    if (high + tiny < error * (norm1 - norm1_error) * kDown) return Outcome::kNo;
+    if (high + tiny < error * (normal_norm1 - norm1_error) * kDown) return Outcome::kNo;
     const bool before_end = high + tiny < far * (std::fabs(d.value) - d.error) * kDown;
-    return before_end && low > error * (norm1 + norm1_error) * kUp + tiny ? Outcome::kYes
-                                                                          : Outcome::kUnsure;
+    return before_end && low > error * (normal_norm1 + norm1_error) * kUp + tiny ? Outcome::kYes
+                                                                                 : Outcome::kUnsure;
 }
 
 /// Signs of the edge functions U, V, W, found one by one. The one that does not count is treated as

@@ -17,7 +17,7 @@ struct SideVectors {
           e2(Vec3<T>(t.c) - Vec3<T>(t.a)),
           d(far ? -Vec3<T>(p) : Vec3<T>(t.a) - Vec3<T>(p)) {}
     detail::Bounded<T> product() const {
-        return detail::triple_product(d, cross(e1, e2), detail::cross_magnitude(e1, e2));
+        return detail::triple_product(d, cross(e1, e2), cross_magnitude(e1, e2));
     }
     // Each product has a factor 0, as in a plane across an axis: no difference rounds to 0.
     bool vanish() const {

@@ -14,17 +14,6 @@
 
 namespace nuvo {
 
-/// Holds every triangle of the scene: one bound for all edge functions of a ray.
-inline Bounds3 triangle_bounds(const Scene& scene, const Primitives& primitives) {
-    Bounds3 all;
-    for (std::size_t i = 0; i < primitives.item_count(); ++i) {
-        const PrimitiveSource& first = primitives.sources[primitives.item_first[i]];
-        if (std::holds_alternative<TriangleMesh>(scene.objects[first.object].shape))
-            all = all.extended(primitives.item_boxes[i]);
-    }
-    return all;
-}
-
 inline LightPlace place_of(const Light& light) {
     if (light.kind == Light::Kind::kDirectional) return {-light.direction, true};
     return {light.location, false};
@@ -62,11 +51,9 @@ class ExactKernelOf {
 
     ExactKernelOf(const Scene& scene, const Primitives& primitives, std::optional<double> bias,
                   BackFaces back_faces = BackFaces::kSolid)
-        : ExactKernelOf(scene, primitives, triangle_bounds(scene, primitives), bias, back_faces) {}
-    /// `triangles` is what triangle_bounds() found.
-    ExactKernelOf(const Scene& scene, const Primitives& primitives, const Bounds3& triangles,
-                  std::optional<double> bias, BackFaces back_faces = BackFaces::kSolid)
-        : store_(scene, primitives, back_faces), triangles_(triangles), bias_(bias) {}
+        : store_(scene, primitives, back_faces),
+          triangles_(primitives.kind(PrimitiveKind::kTriangle).box),
+          bias_(bias) {}
 
     const PrimitiveSource& source(PrimitiveId id) const { return store_.source(id); }
     std::size_t memory_bytes() const { return store_.memory_bytes(); }

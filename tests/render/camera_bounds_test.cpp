@@ -10,9 +10,9 @@
 HWY_BEFORE_NAMESPACE();
 namespace nuvo::HWY_NAMESPACE {
 
-std::uint32_t make_triangles(const CameraRays& camera, const Point3& eye, double scale,
-                             const TriangleBatch& batch, CameraTriangle* out) {
-    return TriangleMaker({camera, eye, scale}).make(batch, out, TriangleBatch::kSize).unknown;
+std::uint32_t make_triangles(const CameraRays& camera, const TriangleBatch& batch,
+                             CameraTriangle* out) {
+    return TriangleMaker(camera).make(batch, out, TriangleBatch::kSize).unknown;
 }
 
 }  // namespace nuvo::HWY_NAMESPACE
@@ -136,7 +136,7 @@ TEST(CameraBounds, HoldTheFunctionsOfTriangles) {
                 }
             }
             CameraTriangle made[TriangleBatch::kSize];
-            const std::uint32_t unknown = make(view.camera, eye, view.frame.scale, batch, made);
+            const std::uint32_t unknown = make(view.camera, batch, made);
             for (std::size_t i = 0; i < TriangleBatch::kSize; ++i) {
                 if ((unknown >> i & 1) != 0) continue;
                 ++judged[round % kKinds];
@@ -190,9 +190,8 @@ TEST(CameraBounds, HoldTheFunctionsOfTrianglesMadeExactly) {
         const Point3& eye = view.scene.camera.position;
         const Triangle t = triangle_before(random, eye, view, round % kKinds);
         CameraTriangle made{};
-        PixelBox box{1, 1, 0, 0};
-        make_exact_camera_triangle({view.camera, eye, view.frame.scale}, t, false, made, box);
-        if (box.columns == 0) {  // its plane goes through the eye
+        if (!make_exact_camera_triangle(view.camera, t, false, made)) {
+            // Its plane goes through the eye.
             ASSERT_EQ(volume(t, eye), 0) << "round " << round;
             continue;
         }

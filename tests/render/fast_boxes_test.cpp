@@ -64,7 +64,7 @@ Findings compare_alone(const Scene& scene, InstructionSet isa) {
     const auto job =
         std::make_unique<PrimaryJob>(PrimaryJob{fast, camera, tables, fallback, true, {}});
     const auto macro = std::make_unique<MacroTile>();
-    const auto quadrics = std::make_unique<MacroQuadrics>();
+    const auto quadrics = std::make_unique<EllipsoidNormals>();
     PrimaryStage(isa).trace(*job, *macro, quadrics.get());
     Findings found;
     for (int lane = 0; lane < MacroTile::kLanes; ++lane) {

@@ -50,7 +50,7 @@ class ShadedPicture {
         ShadingStage stage(shading, redo_exactly);
         Image image(size_.width, size_.height);
         const auto macro = std::make_unique<MacroTile>();
-        const auto quadrics = std::make_unique<MacroQuadrics>();
+        const auto quadrics = std::make_unique<EllipsoidNormals>();
         const auto tile = std::make_unique<Tile>();
         Shaded result;
         for (macro->y = 0; macro->y < size_.height; macro->y += kMacroSide)

@@ -33,9 +33,9 @@ class ShadowPicture {
           primitives_(flatten(scene, LeafContent::kPrimitives)),
           fast_(scene, primitives_, type, 1),
           camera_(scene.camera, size, fast_.frame()),
-          triangles_(triangle_bounds(scene, primitives_)),
+          triangles_(primitives_.kind(PrimitiveKind::kTriangle).box),
           fallback_(fast_, camera_),
-          kernel_(scene, primitives_, triangles_, std::nullopt) {
+          kernel_(scene, primitives_, std::nullopt) {
         Profile profile = exact_profile();
         profile.walk = WalkChoice::kDescent;
         facts_ = render_facts(scene, primitives_, build_tree(scene, primitives_, profile), profile,

@@ -65,7 +65,7 @@ class Shown {
         PrimaryJob job{fast_, camera_, spheres_, fallback_, true, {}};
         const PrimaryStage primary(isa_);
         const auto macro = std::make_unique<MacroTile>();
-        const auto quadrics = std::make_unique<MacroQuadrics>();
+        const auto quadrics = std::make_unique<EllipsoidNormals>();
         const auto tile = std::make_unique<Tile>();
         primary.trace(job, *macro, quadrics.get());
         for (int i = 0; i < MacroTile::kTiles; ++i) {

@@ -59,7 +59,7 @@ TEST_F(TriangleChunkTest, BringsEveryTriangleOnceInItsPlace) {
     for (const int threads : {1, 2, 7}) {
         std::vector<std::atomic<int>> met(fast_.triangle_end());
         std::atomic<int> wrong = 0;
-        for_each_chunk(fast_, threads, [&](const TriangleChunk& chunk) {
+        for_each_chunk(fast_, {}, fast_.triangle_end(), threads, [&](const TriangleChunk& chunk) {
             chunk.for_each_batch([&](const TriangleBatch& batch, Slot first, std::size_t count) {
                 for (std::size_t i = 0; i < TriangleBatch::kSize; ++i) {
                     // Beyond the last one the first one again.

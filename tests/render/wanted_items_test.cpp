@@ -205,9 +205,9 @@ TEST(KeptTables, ListFewItemsForALightThatReachesLittle) {
             "")
             << "seed " << kSeed;
         ASSERT_NE(kept.shadows(), nullptr);
-        EXPECT_TRUE(kept.shadows()->table(0).complete);
+        EXPECT_TRUE(kept.shadows()->table(0).complete());
         EXPECT_TRUE(kept.shadows()->table(0).buffer.usable());
-        EXPECT_FALSE(kept.shadows()->table(1).complete);
+        EXPECT_FALSE(kept.shadows()->table(1).complete());
         EXPECT_LT(kept.shadows()->table(1).slots.size(), fast.slot_end() / 4);
     }
 }
@@ -258,8 +258,7 @@ TEST(WantedDepths, CoverThePointsThatTheyCount) {
                 WantedDepths::of(fast, LightPoint(light, fast.frame()), isa);
             ASSERT_TRUE(depths);
             const auto count = [&](const WantedTile& tile) {
-                TileMask lanes;
-                std::copy(std::begin(tile.wanted), std::end(tile.wanted), lanes);
+                TileMask lanes = tile.wanted;
                 depths->keep_covered(tile.tile, lanes);
                 int lanes_left = 0;
                 for (const std::uint16_t block : lanes) lanes_left += std::popcount(block);

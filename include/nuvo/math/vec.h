@@ -66,6 +66,26 @@ constexpr Vec3<T> cross(const Vec3<T>& a, const Vec3<T>& b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
+/// The components' absolute values.
+template <typename T>
+Vec3<T> magnitude(const Vec3<T>& v) {
+    return {std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)};
+}
+
+/// |a| x |b| with the products added, which bounds the roundings of a x b.
+template <typename T>
+Vec3<T> cross_magnitude(const Vec3<T>& a, const Vec3<T>& b) {
+    const Vec3<T> s = magnitude(a);
+    const Vec3<T> t = magnitude(b);
+    return {s.y * t.z + s.z * t.y, s.z * t.x + s.x * t.z, s.x * t.y + s.y * t.x};
+}
+
+/// The sum of the absolute components.
+template <typename T>
+T norm1(const Vec3<T>& v) {
+    return std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z);
+}
+
 /// Largest absolute component; a NaN may be lost. (Comparisons compile to one
 /// instruction each, std::fmax to a call.)
 template <typename T>

@@ -9,6 +9,16 @@
 
 namespace nuvo {
 
+/// The box of one octant of a voxel that is cut by the planes x, y, z = cut; octant bits: 1 upper
+/// x, 2 upper y, 4 upper z.
+template <typename Cut>
+Bounds3T<float> octant_box(const Bounds3T<float>& voxel, const Cut& cut, unsigned octant) {
+    Bounds3T<float> box = voxel;
+    for (int axis = 0; axis < 3; ++axis)
+        ((octant >> axis & 1U) != 0 ? box.min : box.max)[axis] = cut[axis];
+    return box;
+}
+
 /// One node of a CompactOctree in 16 bytes: an interior node with its cut and the non-empty of its
 /// children, or a leaf with its run of items.
 struct CompactNode {
@@ -21,7 +31,7 @@ struct CompactNode {
         return {{std::bit_cast<float>(first), std::bit_cast<float>(count), 0}, 0};
     }
     bool is_leaf() const { return (children & 0xff) == 0; }
-    /// Bit o is set where octant o holds items; octant bits: 1 upper x, 2 upper y, 4 upper z.
+    /// Bit o is set where octant o holds items.
     std::uint32_t mask() const { return children & 0xff; }
     std::uint32_t first_child() const { return children >> 8; }
     /// The place of a non-empty octant's node.
@@ -29,20 +39,16 @@ struct CompactNode {
         return first_child() +
                static_cast<std::uint32_t>(std::popcount(mask() & ((1U << octant) - 1)));
     }
+    /// Calls use(its node's place, its box) for each non-empty octant.
+    template <typename Use>
+    void for_each_child(const Bounds3T<float>& voxel, Use&& use) const {
+        for (unsigned octant = 0; octant < 8; ++octant)
+            if ((mask() >> octant & 1) != 0) use(child(octant), octant_box(voxel, cut, octant));
+    }
     std::uint32_t first_item() const { return std::bit_cast<std::uint32_t>(cut[0]); }
     std::uint32_t item_count() const { return std::bit_cast<std::uint32_t>(cut[1]); }
 };
 static_assert(sizeof(CompactNode) == 16);
-
-/// The box of one octant of a voxel that is cut by the planes x, y, z = cut; bits as in
-/// CompactNode.
-template <typename Cut>
-Bounds3T<float> octant_box(const Bounds3T<float>& voxel, const Cut& cut, unsigned octant) {
-    Bounds3T<float> box = voxel;
-    for (int axis = 0; axis < 3; ++axis)
-        ((octant >> axis & 1U) != 0 ? box.min : box.max)[axis] = cut[axis];
-    return box;
-}
 
 /// Where a voxel is cut: through its centre, or on each axis where the surface area heuristic of
 /// the two sides is least.

@@ -5,6 +5,28 @@
 #include "nuvo/math/error_bounds.h"
 #include "nuvo/math/parallel.h"
 
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "fast/camera/camera_tables.cpp"
+#include <hwy/foreach_target.h>
+
+#include "fast/camera/pixel_box_lanes.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace nuvo::HWY_NAMESPACE {
+
+void make_sphere_boxes(const CameraRays& camera, const CameraSphere* spheres, std::size_t count,
+                       PixelBox* out) {
+    const PixelBoxMaker maker(camera);
+    for (std::size_t first = 0; first < count; first += PixelBoxMaker::kGroup)
+        maker.spheres(spheres + first, out + first, std::min(PixelBoxMaker::kGroup, count - first));
+}
+
+}  // namespace nuvo::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "fast/simd/dispatch.h"
+
 namespace nuvo {
 namespace {
 
@@ -59,18 +81,19 @@ CameraTables::CameraTables(const FastScene& scene, const CameraRays& camera, Ins
     balls.resize(scene.slot_end() - scene.sphere_end());
     boxes.resize(spheres.size());
     for_each_part(threads, spheres.size(), [&](std::size_t begin, std::size_t end) {
-        take(scene.quadrics().subspan(begin, end - begin));
+        make_spheres(scene.quadrics().subspan(begin, end - begin));
     });
+    const auto make_boxes = NUVO_FOR_ISA(isa, make_sphere_boxes);
     for_each_part(threads, spheres.size(), [&](std::size_t begin, std::size_t end) {
-        make_sphere_boxes(isa, camera, spheres.data() + begin, end - begin, boxes.data() + begin);
+        make_boxes(camera, spheres.data() + begin, end - begin, boxes.data() + begin);
         for (std::size_t i = begin; i < end; ++i)
             if (spheres[i].hidden) boxes[i] = kNoPixels;
     });
 }
 
-void CameraTables::take(QuadricSpan quadrics) {
-    const Point3 eye = scene_.scene().camera.position;
-    const double scale = scene_.frame().scale;
+void CameraTables::make_spheres(QuadricSpan quadrics) {
+    const Point3& eye = camera_.eye;
+    const double scale = camera_.scale;
     const double direction = CameraExtent(camera_).direction;
     for (const QuadricSlot& quadric : quadrics) {
         if (const QuadricSlot* const prefetched = scene_.prefetched_after(quadric))
@@ -103,3 +126,4 @@ void CameraTables::take(QuadricSpan quadrics) {
 }
 
 }  // namespace nuvo
+#endif

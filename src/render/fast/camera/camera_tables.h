@@ -1,7 +1,6 @@
 #pragma once
 
 #include "fast/scene/fast_scene.h"
-#include "fast/scene/triangle_chunk.h"
 #include "fast/tile/tile.h"
 #include "nuvo/math/big_vector.h"
 #include "nuvo/render/fast.h"
@@ -27,13 +26,6 @@ struct CameraExtent {
     double x;  ///< pixels
     double y;
     double direction;  ///< bounds the sum of |components| of forward, X right and Y down
-};
-
-/// What triangles' records are made for.
-struct CameraTrianglesJob {
-    const CameraRays& camera;
-    Point3 eye;    ///< world space
-    double scale;  ///< of the local frame
 };
 
 /// The functions u, v, w (each >= 0 inside of an edge) and q = 1 / t of a triangle at the pixel
@@ -83,10 +75,6 @@ static_assert(sizeof(PixelBox) == 16);
 inline constexpr PixelBox kNoPixels{};
 /// Pictures whose sides are longer get boxes that rule nothing out.
 inline constexpr int kMostBoxPixels = 65535;
-/// Fills the boxes of spheres. (pixel_boxes.cpp)
-void make_sphere_boxes(InstructionSet isa, const CameraRays& camera, const CameraSphere* spheres,
-                       std::size_t count, PixelBox* out);
-
 /// Of the spheres and ellipsoids; made anew for each picture.
 class CameraTables {
   public:
@@ -111,7 +99,7 @@ class CameraTables {
     BigVector<PixelBox> boxes;        ///< by slot - triangle_end()
 
   private:
-    void take(QuadricSpan quadrics);
+    void make_spheres(QuadricSpan quadrics);
 
     const FastScene& scene_;
     const CameraRays& camera_;

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "fast/camera/camera_tables.h"
+#include "fast/scene/triangle_chunk.h"
 #include "fast/simd/wide_vectors.h"
 #include "nuvo/math/error_bounds.h"
 
@@ -21,13 +22,13 @@ namespace nuvo::HWY_NAMESPACE {
 
 class TriangleMaker {
   public:
-    explicit TriangleMaker(const CameraTrianglesJob& job)
-        : right_(wide(job.camera.right)),
-          down_(wide(job.camera.down)),
-          forward_(wide(job.camera.forward)),
-          eye_(wide(job.eye)),
-          scale_(job.scale),
-          extent_(job.camera) {}
+    explicit TriangleMaker(const CameraRays& camera)
+        : right_(wide(camera.right)),
+          down_(wide(camera.down)),
+          forward_(wide(camera.forward)),
+          eye_(wide(camera.eye)),
+          scale_(camera.scale),
+          extent_(camera) {}
 
     /// Which of a batch's triangles double arithmetic cannot tell, and which of the others turn a
     /// back to the eye that nobody sees; where all do so nothing is made of them.

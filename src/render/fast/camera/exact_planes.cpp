@@ -40,37 +40,36 @@ PixelFunction along_rays(const CameraRays& camera, const Vector3& v) {
                        roundings(kCameraRoundings) * most + kFloatUnderflow)};
 }
 
-void make_exact_camera_triangle(const CameraTrianglesJob& job, const Triangle& triangle,
-                                bool front_only, CameraTriangle& out, PixelBox& box) {
-    const ExactPlane plane(triangle, job.eye);
+bool make_exact_camera_triangle(const CameraRays& camera, const Triangle& triangle, bool front_only,
+                                CameraTriangle& out) {
+    const ExactPlane plane(triangle, camera.eye);
     const int sign = plane.constant.sign();
-    if (sign == 0 || (front_only && sign > 0)) {
-        box = kNoPixels;
-        return;
-    }
+    if (sign == 0 || (front_only && sign > 0)) return false;
     const auto put = [&](int i, const PixelFunction& f) {
         out.a[i] = f.a;
         out.b[i] = f.b;
         out.c[i] = f.c;
         out.e[i] = f.e;
     };
-    const ExactVector eye(job.eye);
+    const ExactVector eye(camera.eye);
     const ExactVector corner[3] = {ExactVector(triangle.a) - eye, ExactVector(triangle.b) - eye,
                                    ExactVector(triangle.c) - eye};
     // Edge functions may have any positive factor.
     for (int i = 0; i < 3; ++i)
         put(i,
-            along_rays(job.camera,
+            along_rays(camera,
                        ScaledVector(cross(corner[(i + 1) % 3], corner[(i + 2) % 3])).value * sign));
     const ScaledVector normal(plane.normal);
     const WideDouble constant = plane.constant.approximate();
-    const WideDouble inverse = WideDouble(1, normal.exponent) / (constant * WideDouble(job.scale));
+    const WideDouble inverse =
+        WideDouble(1, normal.exponent) / (constant * WideDouble(camera.scale));
     constexpr double kLargest = 0x1p120;
     const double factor = inverse.rounded();
-    if (std::fabs(factor) * CameraExtent(job.camera).direction < kLargest)
-        put(3, along_rays(job.camera, normal.value * factor));
+    if (std::fabs(factor) * CameraExtent(camera).direction < kLargest)
+        put(3, along_rays(camera, normal.value * factor));
     else
         put(3, {0, 0, 0, std::numeric_limits<float>::infinity()});
+    return true;
 }
 
 }  // namespace nuvo

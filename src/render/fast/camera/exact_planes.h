@@ -37,9 +37,9 @@ struct PixelFunction {
 /// which were rounded in other ways.
 PixelFunction along_rays(const CameraRays& camera, const Vector3& v);
 
-/// The record of a triangle of which double arithmetic cannot tell it, and no pixels at all where
-/// the eye lies in its plane or behind a front that alone is visible: from there it is never hit.
-void make_exact_camera_triangle(const CameraTrianglesJob& job, const Triangle& triangle,
-                                bool front_only, CameraTriangle& out, PixelBox& box);
+/// The record of a triangle of which double arithmetic cannot tell it. False: the eye lies in its
+/// plane or behind a front that alone is visible; from there it is never hit, and has no record.
+bool make_exact_camera_triangle(const CameraRays& camera, const Triangle& triangle, bool front_only,
+                                CameraTriangle& out);
 
 }  // namespace nuvo

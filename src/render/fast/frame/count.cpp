@@ -39,11 +39,10 @@ RayCounts count_rays(const FastScene& scene, InstructionSet isa, Resolution reso
     counts.primary_rays = pixel_count(resolution);
     begin(progress, "pixels", counts.primary_rays);
     const auto macro = std::make_unique<MacroTile>();
-    const auto quadrics = std::make_unique<MacroQuadrics>();
     Tile tile;
     for (macro->y = 0; macro->y < resolution.height; macro->y += kMacroSide) {
         for (macro->x = 0; macro->x < resolution.width; macro->x += kMacroSide) {
-            primary.trace(*job, *macro, quadrics.get());
+            primary.trace(*job, *macro, nullptr);
             for (int i = 0; i < MacroTile::kTiles; ++i) {
                 macro->show(i, nullptr, tile);
                 counts.shadow_rays += shadow_rays(scene, fallback, tile);

@@ -54,9 +54,9 @@ void Frame::find_hits() {
     Hits& hits = tables_->hits;
     const std::vector<TilePlace>& tiles = tables_->tiles;
     hits.tiles.resize(tiles.size());
-    if (scene_.slot_end() != scene_.triangle_end()) hits.quadrics.resize(tiles.size());
+    if (scene_.has_ellipsoids()) hits.normals.resize(tiles.size());
     for_each_tile([&](Worker& worker, std::size_t i) {
-        worker.find(tiles[i], hits.tiles[i], hits.quadrics_of(i));
+        worker.find(tiles[i], hits.tiles[i], hits.normals_of(i));
         if (!tables_->is_serial) hits.seen.add(hits.tiles[i].slot);
         add(options_.progress, tables_->pixels(i));
     });

@@ -13,7 +13,6 @@
 #include "fast/primary/macro_tile.h"
 #include "fast/shading/shading_tables.h"
 #include "fast/shadow/shadow_tables.h"
-#include "fast/tile/tile_order.h"
 #include "fast/tile/triangle_set.h"
 #include "nuvo/math/big_vector.h"
 
@@ -31,13 +30,13 @@ inline std::size_t shadow_bytes(const FastScene& scene, bool listed) {
 
 /// What all pixels show.
 struct Frame::Hits {
-    BigVector<MacroTile> tiles;         // in the order of Tables::tiles
-    BigVector<MacroQuadrics> quadrics;  // the same; empty: the scene has none
+    BigVector<MacroTile> tiles;           // in the order of Tables::tiles
+    BigVector<EllipsoidNormals> normals;  // the same; empty: no ellipsoids
     TriangleSet seen;
 
-    MacroQuadrics* quadrics_of(std::size_t i) { return quadrics.empty() ? nullptr : &quadrics[i]; }
+    EllipsoidNormals* normals_of(std::size_t i) { return normals.empty() ? nullptr : &normals[i]; }
     std::size_t memory_bytes() const {
-        return tiles.size() * sizeof(MacroTile) + quadrics.size() * sizeof(MacroQuadrics);
+        return tiles.size() * sizeof(MacroTile) + normals.size() * sizeof(EllipsoidNormals);
     }
 };
 
@@ -52,23 +51,20 @@ class LitPixels {
     bool empty() const { return lanes_.empty(); }
     TileMask& of(std::size_t macro_tile, int tile, std::size_t light) {
         const std::size_t of_all = macro_tile * MacroTile::kTiles + static_cast<std::size_t>(tile);
-        return lanes_[of_all * lights_ + light].lit;
+        return lanes_[of_all * lights_ + light];
     }
     std::size_t memory_bytes() const { return vector_bytes(lanes_); }
 
   private:
-    struct Lanes {
-        TileMask lit;
-    };
     std::size_t lights_ = 0;
-    BigVector<Lanes> lanes_;
+    BigVector<TileMask> lanes_;
 };
 
 struct Frame::Tables {
     Tables(const FastScene& scene, const FastOptions& options, Resolution resolution,
            KeptTables& kept, ShadowListing listing)
         : rays(scene.scene().camera, resolution, scene.frame()),
-          tiles(tiles_in_order(resolution, kMacroSide)),
+          tiles(macro_tiles(resolution)),
           two_passes(listing == ShadowListing::kMeasured ? lists_pay(scene, resolution)
                                                          : listing != ShadowListing::kAll),
           camera(scene, rays, options.isa, options.threads),
@@ -89,11 +85,8 @@ struct Frame::Tables {
 
     /// Of macro tile i.
     std::uint64_t pixels(std::size_t i) const {
-        const int x = tiles[i].column * kMacroSide;
-        const int y = tiles[i].row * kMacroSide;
-        const Resolution size = rays.resolution;
-        return pixel_count(
-            {std::min(kMacroSide, size.width - x), std::min(kMacroSide, size.height - y)});
+        return pixel_count({std::min(kMacroSide, rays.resolution.width - tiles[i].x),
+                            std::min(kMacroSide, rays.resolution.height - tiles[i].y)});
     }
 
     CameraRays rays;

@@ -59,9 +59,9 @@ class Frame::Worker {
     }
 
     /// Finds what a macro tile shows, unless the serial tracer has taken over.
-    void find(TilePlace place, MacroTile& macro, MacroQuadrics* quadrics) {
-        macro.x = place.column * kMacroSide;
-        macro.y = place.row * kMacroSide;
+    void find(TilePlace place, MacroTile& macro, EllipsoidNormals* normals) {
+        macro.x = place.x;
+        macro.y = place.y;
         if (tables_.is_serial) return;
         StageClock clock(clocked_);
         constexpr std::uint64_t kPixels = kMacroSide * kMacroSide;
@@ -69,7 +69,7 @@ class Frame::Worker {
         if (options_.redo_exactly)
             fallback_.allow(allowed_tests(scene_, pixel_count(tables_.rays.resolution),
                                           options_.threads, found_, kPixels));
-        primary_.trace(job_, macro, quadrics);
+        primary_.trace(job_, macro, normals);
         give_up_if_exhausted();
         clock.add_to(spent_.primary);
     }
@@ -77,7 +77,7 @@ class Frame::Worker {
     /// that cast shadows.
     template <typename Use>
     void want(std::size_t i, LightRange lights, Use&& use) {
-        for_each_tile(tables_.hits.tiles[i], tables_.hits.quadrics_of(i), [&](int) {
+        for_each_tile(tables_.hits.tiles[i], tables_.hits.normals_of(i), [&](int) {
             if (!hit_anything()) return;
             shading_.surface(tile_);
             for (std::size_t light = lights.first; light < lights.last; ++light) {
@@ -92,7 +92,7 @@ class Frame::Worker {
     void find_lit(std::size_t i, LightRange lights) {
         StageClock clock(clocked_);
         take_shadows();
-        for_each_tile(tables_.hits.tiles[i], tables_.hits.quadrics_of(i), [&](int tile) {
+        for_each_tile(tables_.hits.tiles[i], tables_.hits.normals_of(i), [&](int tile) {
             if (tables_.is_serial || !hit_anything()) return;
             shading_.surface(tile_);
             for (std::size_t light = lights.first; light < lights.last; ++light)
@@ -104,17 +104,15 @@ class Frame::Worker {
     void forget_shadows() { shadow_.reset(); }
     void shade(std::size_t i, Image& image) {
         const TilePlace place = tables_.tiles[i];
-        if (tables_.is_serial)
-            return trace_serially(place.column * kMacroSide, place.row * kMacroSide, kMacroSide,
-                                  image);
+        if (tables_.is_serial) return trace_serially(place.x, place.y, kMacroSide, image);
         if (tables_.lit.empty()) take_shadows();
         if (tables_.two_passes) {
-            shade(i, tables_.hits.tiles[i], tables_.hits.quadrics_of(i), image);
+            shade(i, tables_.hits.tiles[i], tables_.hits.normals_of(i), image);
             return;
         }
-        const bool quadrics = scene_.slot_end() != scene_.triangle_end();
-        find(place, macro_, &quadrics_);
-        shade(i, macro_, quadrics ? &quadrics_ : nullptr, image);
+        EllipsoidNormals* const normals = scene_.has_ellipsoids() ? &normals_ : nullptr;
+        find(place, macro_, normals);
+        shade(i, macro_, normals, image);
     }
 
     /// After the last tile.
@@ -129,42 +127,40 @@ class Frame::Worker {
 
   private:
     template <typename Use>
-    void for_each_tile(const MacroTile& macro, const MacroQuadrics* quadrics, Use&& use) {
+    void for_each_tile(const MacroTile& macro, const EllipsoidNormals* normals, Use&& use) {
         const Resolution size = tables_.rays.resolution;
         for (int i = 0; i < MacroTile::kTiles; ++i) {
             if (macro.tile_x(i) >= size.width || macro.tile_y(i) >= size.height) continue;
-            macro.show(i, quadrics, tile_);
+            macro.show(i, normals, tile_);
             use(i);
         }
     }
-    void shade(std::size_t macro_tile, const MacroTile& macro, const MacroQuadrics* quadrics,
+    void shade(std::size_t macro_tile, const MacroTile& macro, const EllipsoidNormals* normals,
                Image& image) {
         StageClock clock(clocked_);
-        for_each_tile(macro, quadrics,
+        for_each_tile(macro, normals,
                       [&](int tile) { shade_tile(macro_tile, tile, image, clock); });
     }
     void shade_tile(std::size_t macro_tile, int tile, Image& image, StageClock& clock) {
-        if (tables_.is_serial) return trace_serially(tile_.x, tile_.y, kTileSide, image);
-        if (hit_anything()) {
-            shading_.surface(tile_);
-            for (std::size_t light = 0; light < scene_.scene().lights.size(); ++light) {
-                if (tables_.lit.empty()) {
-                    TileMask lit;
-                    trace_shadows(light, lit, clock);
-                    shading_.add(light, lit);
-                } else {
-                    TileMask wanted;
-                    shading_.sample(tile_, light, wanted);
-                    shading_.add(light, tables_.lit.of(macro_tile, tile, light));
-                }
-            }
-        }
+        if (!tables_.is_serial && hit_anything()) light_tile(macro_tile, tile, clock);
         give_up_if_exhausted();
         if (tables_.is_serial) return trace_serially(tile_.x, tile_.y, kTileSide, image);
         shading_.finish(tile_, fallback_, image);
         clock.add_to(spent_.shading);
     }
-
+    void light_tile(std::size_t macro_tile, int tile, StageClock& clock) {
+        shading_.surface(tile_);
+        for (std::size_t light = 0; light < scene_.scene().lights.size(); ++light) {
+            TileMask lit;
+            if (tables_.lit.empty()) {
+                trace_shadows(light, lit, clock);
+            } else {
+                shading_.sample(tile_, light, lit);
+                lit = tables_.lit.of(macro_tile, tile, light);
+            }
+            shading_.add(light, lit);
+        }
+    }
     void take_shadows() {
         if (!shadow_)
             shadow_.emplace(*tables_.shadow, kept_.pairs, options_.isa, options_.redo_exactly,
@@ -185,14 +181,11 @@ class Frame::Worker {
     // A square of the picture.
     void trace_serially(int left, int top, int side, Image& image) {
         if (!pixels_) pixels_.emplace(serial_);
-        const Resolution size = tables_.rays.resolution;
-        for (int y = top; y < std::min(top + side, size.height); ++y)
-            for (int x = left; x < std::min(left + side, size.width); ++x)
-                image.at(x, y) = pixels_->pixel(tables_.rays.rays.ray(x, y));
+        pixels_->draw(tables_.rays.rays, left, top, side, image);
     }
 
     bool hit_anything() const {
-        return std::any_of(std::begin(tile_.hit), std::end(tile_.hit),
+        return std::any_of(tile_.hit.begin(), tile_.hit.end(),
                            [](std::uint16_t lanes) { return lanes != 0; });
     }
 
@@ -211,7 +204,7 @@ class Frame::Worker {
     std::optional<ShadowStage> shadow_;
     ShadingStage shading_;
     MacroTile macro_{};
-    MacroQuadrics quadrics_{};
+    EllipsoidNormals normals_{};
     Tile tile_{};
 };
 

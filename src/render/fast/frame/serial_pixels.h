@@ -1,7 +1,10 @@
 #pragma once
 
+#include <algorithm>
+
 #include "chosen.h"
 #include "fast/tile/serial_tree.h"
+#include "nuvo/image/image.h"
 #include "tracer.h"
 
 namespace nuvo {
@@ -17,8 +20,12 @@ class SerialPixels {
     SerialPixels(const SerialPixels&) = delete;
     SerialPixels& operator=(const SerialPixels&) = delete;
 
-    /// `ray` has unit direction.
-    Rgb8 pixel(const Ray& ray) { return quantized(tracer_.color(ray)); }
+    /// Those of a square of the picture.
+    void draw(const RayGenerator& rays, int left, int top, int side, Image& image) {
+        for (int y = top; y < std::min(top + side, image.height()); ++y)
+            for (int x = left; x < std::min(left + side, image.width()); ++x)
+                image.at(x, y) = quantized(tracer_.color(rays.ray(x, y)));
+    }
 
   private:
     using Search = ExactSearch<ExactKernel, DescentLocator, NoCounter>;

@@ -36,7 +36,8 @@ class LightBufferMaker {
         std::fill(out_.starts.begin(), out_.starts.end(), 0);
         records_.resize(end_ + end_ / 2 + 16);  // some are seen through several faces
         for (Slot first = 0; first < end_; first += count_from(first)) {
-            for (Slot i = first + 16; items_.slots && i < std::min<Slot>(first + 32, end_); ++i)
+            for (Slot i = first + 16; items_.slots.list && i < std::min<Slot>(first + 32, end_);
+                 ++i)
                 prefetch_corners(items_, items_.slot(i));
             for_each_face(first, [&](int face, const LightRanges& ranges, std::uint32_t lanes)
                                      HWY_ATTR { record(first, face, ranges, lanes); });

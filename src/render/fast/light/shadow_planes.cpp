@@ -109,9 +109,7 @@ class PlanesMaker {
         const Wide zero(0.0);
         const Wide factor = select(known, sign / norm, zero);
         const Wide3 n = select(known, normal, Wide3{zero, zero, zero}) * factor;
-        store_rounded(n.x, columns_.at[p][0]);
-        store_rounded(n.y, columns_.at[p][1]);
-        store_rounded(n.z, columns_.at[p][2]);
+        store_rounded(n, columns_.at[p]);
         store_rounded(-dot(n, on_it), columns_.at[p][3]);
     }
 

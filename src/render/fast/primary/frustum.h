@@ -69,7 +69,7 @@ class Frustum {
             for (int side = 0; side < 2; ++side)
                 sides_[2 * k + side] =
                     Affine(forward * kBeyond + across[k] * (side == 0 ? 1.0 : -1.0),
-                           size + abs_of(forward) * kBeyond, camera.origin, reach);
+                           size + magnitude(forward) * kBeyond, camera.origin, reach);
         }
         usable_ = depth_.usable();
         for (const Affine& f : across_) usable_ = usable_ && f.usable();
@@ -205,10 +205,6 @@ class Frustum {
     template <typename Numbers>
     static HWY_INLINE typename Numbers::Mask no_pixel(const Numbers& first, const Numbers& last) {
         return (first > last) | (first > Numbers(kMacroSide - 1)) | (last < Numbers(0.0F));
-    }
-
-    static Vector3 abs_of(const Vector3& v) {
-        return {std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)};
     }
 
     Affine depth_;

@@ -5,9 +5,8 @@
 namespace nuvo {
 
 PixelFunction PlaneOrders::order_of(Slot first, Slot second) const {
-    const Point3& eye = scene_.scene().camera.position;
-    const ExactPlane p(scene_.triangle(first), eye);
-    const ExactPlane q(scene_.triangle(second), eye);
+    const ExactPlane p(scene_.triangle(first), camera_.eye);
+    const ExactPlane q(scene_.triangle(second), camera_.eye);
     const int sign = p.constant.sign() * q.constant.sign();
     if (sign == 0) return {0, 0, 0, std::numeric_limits<float>::infinity()};
     const ExactVector difference{p.normal.x * q.constant - q.normal.x * p.constant,

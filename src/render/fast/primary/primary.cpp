@@ -64,14 +64,13 @@ void clear(MacroTile& tile, Resolution picture) {
 class PrimaryTracer {
   public:
     /// Of a tile that was cleared.
-    PrimaryTracer(PrimaryJob& job, MacroTile& tile, MacroQuadrics* quadrics)
+    PrimaryTracer(PrimaryJob& job, MacroTile& tile, EllipsoidNormals* normals)
         : job_(job),
           tile_(tile),
-          quadric_hits_(quadrics),
-          view_{job.camera, job.scene.scene().camera.position, job.scene.frame().scale},
+          normals_(normals),
           culling_(tile),
           box_maker_(job.camera),
-          triangle_maker_(view_),
+          triangle_maker_(job.camera),
           corners_(job.scene),
           pyramid_(tile) {}
 
@@ -126,7 +125,7 @@ class PrimaryTracer {
         constexpr std::size_t kHalf = TriangleBatch::kSize;
         PixelBox boxes[kBatch];
         for (std::size_t half = 0; half * kHalf < count; ++half)
-            box_maker_.triangles(corners_.corners(half).corner, view_.eye, view_.scale,
+            box_maker_.triangles(corners_.corners(half).corner, job_.camera.eye, job_.camera.scale,
                                  boxes + half * kHalf, std::min(kHalf, count - half * kHalf));
         for (std::size_t i = 0; i < count; ++i) queue_[BoxCulling::place(i)] = boxes[i];
         const std::size_t chosen = choose(count);
@@ -136,9 +135,7 @@ class PrimaryTracer {
         for (std::size_t c = 0; c < chosen; ++c) {
             const auto i = static_cast<std::size_t>(chosen_[c]);
             const std::size_t half = i / kHalf;
-            if (!made[half])
-                hidden |= make(half, triangles + half * kHalf, boxes + half * kHalf)
-                          << half * kHalf;
+            if (!made[half]) hidden |= make(half, triangles + half * kHalf) << half * kHalf;
             made[half] = true;
             if ((hidden >> i & 1) != 0) continue;
             for_each_tile(boxes[i], c, [&](int t, std::uint32_t blocks) HWY_ATTR {
@@ -148,14 +145,15 @@ class PrimaryTracer {
         pyramid_.update();
     }
 
-    // Returns which of them turn a back to the eye that nobody sees.
-    HWY_INLINE std::uint32_t make(std::size_t half, CameraTriangle* triangles, PixelBox* boxes) {
+    // Returns which of them are not seen from the eye, wherever they lie.
+    HWY_INLINE std::uint32_t make(std::size_t half, CameraTriangle* triangles) {
         const TriangleBatch& batch = corners_.corners(half);
         auto [unknown, hidden] = triangle_maker_.make(batch, triangles, TriangleBatch::kSize);
         for (; HWY_UNLIKELY(unknown != 0); unknown &= unknown - 1) {
             const auto i = static_cast<std::size_t>(std::countr_zero(unknown));
-            make_exact_camera_triangle(view_, batch.triangle(i), (batch.front_only >> i & 1) != 0,
-                                       triangles[i], boxes[i]);
+            if (!make_exact_camera_triangle(job_.camera, batch.triangle(i),
+                                            (batch.front_only >> i & 1) != 0, triangles[i]))
+                hidden |= 1U << i;
         }
         return hidden;
     }
@@ -166,7 +164,6 @@ class PrimaryTracer {
     // Calls test(tile, blocks) where the c-th of those chosen may be seen.
     template <typename Test>
     HWY_INLINE void for_each_tile(const PixelBox& box, std::size_t c, Test&& test) const {
-        if (box.columns == 0) return;  // the eye lies in the triangle's plane
         for (auto tiles = static_cast<std::uint32_t>(tiles_[c]); tiles != 0; tiles &= tiles - 1) {
             const int t = std::countr_zero(tiles);
             const std::uint32_t blocks =
@@ -345,10 +342,10 @@ class PrimaryTracer {
             tile_.slot[lane] = slot;
             tile_.near_low[lane] = nearest->low;
             tile_.near_high[lane] = nearest->high;
-            if (quadric_hits_ == nullptr) continue;
+            if (normals_ == nullptr) continue;
             for (int axis = 0; axis < 3; ++axis)
-                quadric_hits_->normal[axis][lane] = static_cast<float>(nearest->normal[axis]);
-            quadric_hits_->error[lane] = roundings(2);
+                normals_->normal[axis][lane] = static_cast<float>(nearest->normal[axis]);
+            normals_->error[lane] = roundings(2);
         }
     }
 
@@ -361,8 +358,7 @@ class PrimaryTracer {
 
     PrimaryJob& job_;
     MacroTile& tile_;
-    MacroQuadrics* quadric_hits_;
-    CameraTrianglesJob view_;
+    EllipsoidNormals* normals_;
     BoxCulling culling_;
     PixelBoxMaker box_maker_;
     TriangleMaker triangle_maker_;
@@ -378,9 +374,9 @@ class PrimaryTracer {
     SphereConics conics_;
 };
 
-void trace_primary(PrimaryJob& job, MacroTile& tile, MacroQuadrics* quadrics) {
+void trace_primary(PrimaryJob& job, MacroTile& tile, EllipsoidNormals* normals) {
     clear(tile, job.camera.resolution);
-    PrimaryTracer(job, tile, quadrics).run();
+    PrimaryTracer(job, tile, normals).run();
 }
 
 }  // namespace nuvo::HWY_NAMESPACE

@@ -22,17 +22,17 @@ struct PrimaryJob {
     PlaneOrders orders{scene, camera};
 };
 
-/// Finds the nearest primitives of a macro tile whose x and y are set; fills the rest, and what is
-/// told of quadrics if the scene has any.
+/// Finds the nearest primitives of a macro tile whose x and y are set; fills the rest, and normals
+/// of ellipsoids that the exact fallback decided, unless they are null.
 class PrimaryStage {
   public:
     explicit PrimaryStage(InstructionSet isa);
-    void trace(PrimaryJob& job, MacroTile& tile, MacroQuadrics* quadrics) const {
-        trace_(job, tile, quadrics);
+    void trace(PrimaryJob& job, MacroTile& tile, EllipsoidNormals* normals) const {
+        trace_(job, tile, normals);
     }
 
   private:
-    void (*trace_)(PrimaryJob&, MacroTile&, MacroQuadrics*);
+    void (*trace_)(PrimaryJob&, MacroTile&, EllipsoidNormals*);
 };
 
 }  // namespace nuvo

@@ -9,9 +9,9 @@
 #include <algorithm>
 #include <span>
 
-#include "fast/rays/local_ray.h"
 #include "fast/rays/ray_state.h"
 #include "fast/simd/lanes.h"
+#include "fast/tile/local_ray.h"
 #include "nuvo/math/error_bounds.h"
 
 // 16 rays prepared at once for float walks.

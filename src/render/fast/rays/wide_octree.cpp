@@ -107,12 +107,10 @@ class WideBuilder {
             measure_leaf(node, bounds, voxel);
             return;
         }
-        for (unsigned octant = 0; octant < 8; ++octant) {
-            if ((node.mask() >> octant & 1) == 0) continue;
-            const std::uint32_t child = node.child(octant);
-            measure(child, octant_box(bounds, node.cut, octant));
+        node.for_each_child(bounds, [&](std::uint32_t child, const Bounds3T<float>& box) {
+            measure(child, box);
             voxel.box = voxel.box.extended(voxels_[child].box);
-        }
+        });
         gather_items(node, voxel);
         voxel.forest = sums_of(node).all();
         const float as_node = half_area(voxel.box) * kNodeCost +
@@ -217,9 +215,9 @@ class WideBuilder {
             }
             return;
         }
-        for (unsigned octant = 0; octant < 8; ++octant)
-            if ((node.mask() >> octant & 1) != 0)
-                find_homes(node.child(octant), octant_box(bounds, node.cut, octant));
+        node.for_each_child(bounds, [&](std::uint32_t child, const Bounds3T<float>& box) {
+            find_homes(child, box);
+        });
     }
 
     // The items of all octants without repetition, if they are few.

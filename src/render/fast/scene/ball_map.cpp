@@ -13,18 +13,10 @@ constexpr double kMostStretch = 0x1p8;
 constexpr double kMostError = 0x1p-40;
 constexpr double kSmallest = 0x1p-300;  // no product below underflows
 
-Vector3 magnitude(const Vector3& v) { return {std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}; }
-// |a| x |b| with the products added.
-Vector3 cross_magnitude(const Vector3& a, const Vector3& b) {
-    return {std::fabs(a.y * b.z) + std::fabs(a.z * b.y),
-            std::fabs(a.z * b.x) + std::fabs(a.x * b.z),
-            std::fabs(a.x * b.y) + std::fabs(a.y * b.x)};
-}
 // The largest sum of a row's magnitudes.
 double row_sum(const Matrix3& m) {
     double largest = 0;
-    for (const Vector3& row : m.row)
-        largest = std::fmax(largest, std::fabs(row.x) + std::fabs(row.y) + std::fabs(row.z));
+    for (const Vector3& row : m.row) largest = std::fmax(largest, norm1(row));
     return largest;
 }
 

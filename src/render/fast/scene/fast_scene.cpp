@@ -7,7 +7,6 @@
 #include "fast/scene/local_triangles.h"
 #include "fast/scene/octant_tests.h"
 #include "fast/scene/slot_order.h"
-#include "fast/simd/dispatch.h"
 #include "nuvo/math/big_vector.h"
 #include "nuvo/math/parallel.h"
 #include "nuvo/octree/compact_build.h"
@@ -50,9 +49,8 @@ LocalItems local_items(const FastScene& fast, int threads) {
     items.front_only.resize((items.triangles.size() + 7) / 8);
     const LocalTrianglesJob job{fast.frame(), items.triangles.data(), items.boxes.data(),
                                 items.front_only.data()};
-    const InstructionSet isa = resolved(InstructionSet::kBest);
-    for_each_chunk(fast, threads,
-                   [&](const TriangleChunk& chunk) { make_local_triangles(job, chunk, isa); });
+    for_each_chunk(fast, {}, fast.triangle_end(), threads,
+                   [&](const TriangleChunk& chunk) { make_local_triangles(job, chunk); });
     for_each_part(threads, fast.quadrics().size(), [&](std::size_t begin, std::size_t end) {
         for (const QuadricSlot& quadric : fast.quadrics().subspan(begin, end - begin)) {
             fast.prefetched_after(quadric);

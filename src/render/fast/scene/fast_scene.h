@@ -7,7 +7,6 @@
 
 #include "fast/scene/ball_map.h"
 #include "fast/scene/local_frame.h"
-#include "fast/scene/octant_tests.h"
 #include "nuvo/math/big_vector.h"
 #include "nuvo/math/bounds.h"
 #include "nuvo/octree/compact_build.h"
@@ -22,6 +21,12 @@ namespace nuvo {
 /// an order of their own.
 using Slot = std::uint32_t;
 inline constexpr Slot kNoSlot = ~Slot{0};
+
+/// Slots by places: those of a list, ascending; or, without one, each slot at its own place.
+struct SlotList {
+    const BigVector<Slot>* list = nullptr;
+    Slot operator[](Slot place) const { return list ? (*list)[place] : place; }
+};
 
 /// A sphere or ellipsoid.
 struct QuadricSlot {
@@ -62,8 +67,6 @@ class FastScene {
         return bits;
     }
     const LocalFrame& frame() const { return frame_; }
-    /// Holds every triangle; world space.
-    const Bounds3& triangle_box() const { return primitives_.kind(PrimitiveKind::kTriangle).box; }
     /// Of all boxes of primitives; world space.
     double largest_coordinate() const { return largest_coordinate_; }
     /// Of a size at which no product of the local frame and a ray leaves the doubles; scenes of
@@ -80,6 +83,7 @@ class FastScene {
     Slot triangle_end() const { return triangle_end_; }
     Slot sphere_end() const { return sphere_end_; }
     Slot slot_end() const { return slot_end_; }
+    bool has_ellipsoids() const { return sphere_end_ != slot_end_; }
     /// Document order's name of the primitive.
     PrimitiveId id(Slot slot) const { return ids_.empty() ? slot : ids_[slot]; }
     const PrimitiveSource& source(Slot slot) const { return primitives_.sources[id(slot)]; }

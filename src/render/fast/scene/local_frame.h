@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include "nuvo/math/bounds.h"
 #include "nuvo/render/primitives.h"
 
@@ -18,6 +20,21 @@ struct LocalFrame {
     /// product unless it is subnormal.
     Point3 local(const Point3& p) const { return (p - center) * scale; }
 };
+
+/// A triangle's corners in the local frame, each number rounded to nearest: a.x, a.y, a.z, b.x ...
+/// c.z.
+struct LocalTriangle {
+    float corner[9];
+};
+/// A sphere in the local frame, each number rounded to nearest.
+struct LocalSphere {
+    Vec3<float> center;
+    float radius;
+};
+/// The sphere's largest number.
+inline float size_of(const LocalSphere& sphere) {
+    return std::fmax(sphere.radius, max_norm(sphere.center));
+}
 
 /// For primitives that `box` holds.
 LocalFrame local_frame(const Primitives& primitives, const Bounds3& box);

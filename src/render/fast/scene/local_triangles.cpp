@@ -20,53 +20,36 @@ namespace nuvo::HWY_NAMESPACE {
 
 using Column = Lanes<float, kBatch>;
 
-class LocalMaker {
-  public:
-    explicit LocalMaker(const LocalTrianglesJob& job)
-        : job_(job), center_(wide(job.frame.center)), scale_(job.frame.scale) {}
-
-    HWY_INLINE void make(const TriangleBatch& batch, Slot first, std::size_t count) {
-        for (std::size_t i = 0; i < 3; ++i) {
-            const Wide3 local = (load_wide(batch.corner + 3 * i) - center_) * scale_;
-            store_rounded(local.x, corners_[3 * i]);
-            store_rounded(local.y, corners_[3 * i + 1]);
-            store_rounded(local.z, corners_[3 * i + 2]);
-        }
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const Column a = Column::load(corners_[axis]);
-            const Column b = Column::load(corners_[axis + 3]);
-            const Column c = Column::load(corners_[axis + 6]);
-            const Column low = min(a, min(b, c));
-            const Column high = max(a, max(b, c));
-            (low - margin(low)).store(sides_[axis]);
-            (high + margin(high)).store(sides_[axis + 3]);
-        }
-        job_.front_only[first / kBatch] =
-            static_cast<std::uint8_t>(batch.front_only & ((1U << count) - 1));
-        for (std::size_t i = 0; i < count; ++i) {
-            LocalTriangle& triangle = job_.triangles[first + i];
-            for (std::size_t k = 0; k < 9; ++k) triangle.corner[k] = corners_[k][i];
-            job_.boxes[first + i] = {{sides_[0][i], sides_[1][i], sides_[2][i]},
-                                     {sides_[3][i], sides_[4][i], sides_[5][i]}};
-        }
-    }
-
-  private:
-    static HWY_INLINE Column margin(const Column& v) {
-        return abs(v) * Column(roundings(2)) + Column(std::numeric_limits<float>::min());
-    }
-
-    const LocalTrianglesJob& job_;
-    Wide3 center_;
-    Wide scale_;
-    alignas(64) float corners_[9][kBatch];
-    alignas(64) float sides_[6][kBatch];
-};
+HWY_INLINE Column margin(const Column& v) {
+    return abs(v) * Column(roundings(2)) + Column(std::numeric_limits<float>::min());
+}
 
 void make_local(const LocalTrianglesJob& job, const TriangleChunk& chunk) {
-    LocalMaker maker(job);
-    chunk.for_each_batch([&](const TriangleBatch& batch, Slot first, std::size_t count)
-                             HWY_ATTR { maker.make(batch, first, count); });
+    const Wide3 center = wide(job.frame.center);
+    const Wide scale(job.frame.scale);
+    alignas(64) float corners[9][kBatch];
+    alignas(64) float sides[6][kBatch];
+    chunk.for_each_batch([&](const TriangleBatch& batch, Slot first, std::size_t count) HWY_ATTR {
+        for (std::size_t i = 0; i < 9; i += 3)
+            store_rounded((load_wide(batch.corner + i) - center) * scale, corners + i);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const Column a = Column::load(corners[axis]);
+            const Column b = Column::load(corners[axis + 3]);
+            const Column c = Column::load(corners[axis + 6]);
+            const Column low = min(a, min(b, c));
+            const Column high = max(a, max(b, c));
+            (low - margin(low)).store(sides[axis]);
+            (high + margin(high)).store(sides[axis + 3]);
+        }
+        job.front_only[first / kBatch] =
+            static_cast<std::uint8_t>(batch.front_only & ((1U << count) - 1));
+        for (std::size_t i = 0; i < count; ++i) {
+            LocalTriangle& triangle = job.triangles[first + i];
+            for (std::size_t k = 0; k < 9; ++k) triangle.corner[k] = corners[k][i];
+            job.boxes[first + i] = {{sides[0][i], sides[1][i], sides[2][i]},
+                                    {sides[3][i], sides[4][i], sides[5][i]}};
+        }
+    });
 }
 
 }  // namespace nuvo::HWY_NAMESPACE
@@ -77,9 +60,9 @@ HWY_AFTER_NAMESPACE();
 
 namespace nuvo {
 
-void make_local_triangles(const LocalTrianglesJob& job, const TriangleChunk& chunk,
-                          InstructionSet isa) {
-    (NUVO_FOR_ISA(isa, make_local))(job, chunk);
+void make_local_triangles(const LocalTrianglesJob& job, const TriangleChunk& chunk) {
+    static const auto kernel = NUVO_FOR_ISA(resolved(InstructionSet::kBest), make_local);
+    kernel(job, chunk);
 }
 
 }  // namespace nuvo

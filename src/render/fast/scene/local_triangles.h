@@ -2,7 +2,6 @@
 
 #include "fast/scene/octant_tests.h"
 #include "fast/scene/triangle_chunk.h"
-#include "nuvo/render/fast.h"
 
 namespace nuvo {
 
@@ -15,7 +14,6 @@ struct LocalTrianglesJob {
 };
 
 /// Makes those of a chunk.
-void make_local_triangles(const LocalTrianglesJob& job, const TriangleChunk& chunk,
-                          InstructionSet isa);
+void make_local_triangles(const LocalTrianglesJob& job, const TriangleChunk& chunk);
 
 }  // namespace nuvo

@@ -3,20 +3,10 @@
 #include <cstdint>
 #include <span>
 
+#include "fast/scene/local_frame.h"
 #include "nuvo/octree/compact_build.h"
 
 namespace nuvo {
-
-/// A triangle's corners in the local frame, each number rounded to nearest: a.x, a.y, a.z, b.x ...
-/// c.z.
-struct LocalTriangle {
-    float corner[9];
-};
-/// A sphere in the local frame, each number rounded to nearest.
-struct LocalSphere {
-    Vec3<float> center;
-    float radius;
-};
 
 /// Clears in masks[i] the octants whose closed box triangles[items[i]] surely does not touch:
 /// the separating axes of Akenine-Moeller (2001) as edge functions, after Schwarz and Seidel

@@ -23,29 +23,17 @@ std::uint32_t spread(std::uint32_t v) {
     return (v | v << 2) & 0x09249249;
 }
 
-class ZOrder {
-  public:
-    explicit ZOrder(const Bounds3& box) : low_(box.min) {
-        constexpr double kCells = 1 << kBitsPerAxis;
-        const double widest = max_norm(box.max - box.min);
-        scale_ = widest > 0 ? kCells / widest : 0;
+// The place along a Z-order curve of a point that is so far from the box's lowest corner, with
+// `scale` cells a unit. Any cell will do; what is not a number goes to the first.
+std::uint32_t z_order(const Vector3& from_low, double scale) {
+    constexpr double kLast = (1 << kBitsPerAxis) - 1;
+    std::uint32_t code = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double at = from_low[axis] * scale;
+        code |= spread(at > 0 ? static_cast<std::uint32_t>(at < kLast ? at : kLast) : 0) << axis;
     }
-    std::uint32_t code(const Point3& p) const {
-        return spread(cell(p.x - low_.x)) | spread(cell(p.y - low_.y)) << 1 |
-               spread(cell(p.z - low_.z)) << 2;
-    }
-
-  private:
-    // Any cell will do; what is not a number goes to the first.
-    std::uint32_t cell(double from_low) const {
-        constexpr double kLast = (1 << kBitsPerAxis) - 1;
-        const double at = from_low * scale_;
-        return at > 0 ? static_cast<std::uint32_t>(at < kLast ? at : kLast) : 0;
-    }
-
-    Point3 low_;
-    double scale_;
-};
+    return code;
+}
 
 // By code, stable: least digits first (Knuth 1998, algorithm 5.2.5R).
 void sort_by_code(std::vector<Place>& places) {
@@ -66,11 +54,13 @@ void sort_by_code(std::vector<Place>& places) {
 void sort_in_space(const Primitives& primitives, const Bounds3& box,
                    std::vector<PrimitiveId>& ids) {
     if (ids.size() < kManyPrimitives) return;
-    const ZOrder order(box);
+    constexpr double kCells = 1 << kBitsPerAxis;
+    const double widest = max_norm(box.max - box.min);
+    const double scale = widest > 0 ? kCells / widest : 0;
     std::vector<Place> places;
     places.reserve(ids.size());
     for (const PrimitiveId id : ids)
-        places.push_back({order.code(primitives.item_boxes[id].center()), id});
+        places.push_back({z_order(primitives.item_boxes[id].center() - box.min, scale), id});
     sort_by_code(places);
     for (std::size_t i = 0; i < ids.size(); ++i) ids[i] = places[i].id;
 }

@@ -24,19 +24,24 @@ void ask_for(const TriangleMesh& mesh) {
 
 }  // namespace
 
-// `end`: of the places that slot_at() knows.
-template <typename SlotAt>
-void TriangleChunk::gather(const FastScene& scene, Slot end, SlotAt&& slot_at) {
+void TriangleChunk::fetch(const FastScene& scene, SlotList list, Slot first_place,
+                          Slot last_place) {
+    slots = list;
+    first = first_place;
+    last = last_place;
+    // Those of a list lie far apart in memory.
+    if (list.list != nullptr) scene.prefetch({list.list->data() + first, last - first});
+    const Slot end = list.list != nullptr ? last : scene.triangle_end();  // of places to look at
     Slot place = first;
     while (place < last) {
-        const PrimitiveSource& source = scene.source(slot_at(place));
+        const PrimitiveSource& source = scene.source(list[place]);
         const Object& object = scene.scene().objects[source.object];
         const TriangleMesh& mesh = scene.mesh(source);
         const std::uint32_t front_only = scene.front_only(object) ? 1 : 0;
         const std::uint32_t shadowless = object.casts_shadow ? 0 : 1;
-        if (end - place > kAhead) ask_for(scene.mesh(scene.source(slot_at(place + kAhead))));
-        for (; place < last && scene.source(slot_at(place)).object == source.object; ++place) {
-            const IndexTriple& corners = mesh.triangles[scene.source(slot_at(place)).triangle];
+        if (end - place > kAhead) ask_for(scene.mesh(scene.source(list[place + kAhead])));
+        for (; place < last && scene.source(list[place]).object == source.object; ++place) {
+            const IndexTriple& corners = mesh.triangles[scene.source(list[place]).triangle];
             TriangleBatch& batch = batches[(place - first) / TriangleBatch::kSize];
             const std::size_t lane = (place - first) % TriangleBatch::kSize;
             batch.front_only = (lane == 0 ? 0 : batch.front_only) | front_only << lane;
@@ -48,49 +53,21 @@ void TriangleChunk::gather(const FastScene& scene, Slot end, SlotAt&& slot_at) {
     if (rest != 0) batches[(last - first) / TriangleBatch::kSize].fill_up(rest);
 }
 
-void TriangleChunk::fetch(const FastScene& scene, const BigVector<Slot>* list, Slot first_place,
-                          Slot last_place) {
-    slots = list;
-    first = first_place;
-    last = last_place;
-    if (list == nullptr) {
-        gather(scene, scene.triangle_end(), [](Slot place) { return place; });
-        return;
-    }
-    // Far apart in memory.
-    scene.prefetch({list->data() + first, last - first});
-    gather(scene, last, [&](Slot place) { return (*list)[place]; });
-}
-
-namespace {
-
-void for_each_chunk_of(const FastScene& scene, const BigVector<Slot>* list, std::size_t count,
-                       int threads, const std::function<void(const TriangleChunk&)>& work) {
+void for_each_chunk(const FastScene& scene, SlotList slots, Slot count, int threads,
+                    const std::function<void(const TriangleChunk&)>& work) {
     // A thread takes so many chunks at a time: few, so that a small scene's can be shared.
     constexpr std::size_t kChunksAtOnce = 8;
     constexpr std::size_t kStep = kChunksAtOnce * TriangleChunk::kTriangles;
     for_each_index(threads, (count + kStep - 1) / kStep, [&](std::size_t i, int) {
         TriangleChunk chunk;
-        const std::size_t last = std::min(count, (i + 1) * kStep);
+        const std::size_t last = std::min<std::size_t>(count, (i + 1) * kStep);
         for (std::size_t first = i * kStep; first < last; first += TriangleChunk::kTriangles) {
             chunk.fetch(
-                scene, list, static_cast<Slot>(first),
+                scene, slots, static_cast<Slot>(first),
                 static_cast<Slot>(std::min<std::size_t>(last, first + TriangleChunk::kTriangles)));
             work(chunk);
         }
     });
-}
-
-}  // namespace
-
-void for_each_chunk(const FastScene& scene, int threads,
-                    const std::function<void(const TriangleChunk&)>& work) {
-    for_each_chunk_of(scene, nullptr, scene.triangle_end(), threads, work);
-}
-
-void for_each_chunk(const FastScene& scene, const BigVector<Slot>& slots, Slot count, int threads,
-                    const std::function<void(const TriangleChunk&)>& work) {
-    for_each_chunk_of(scene, &slots, count, threads, work);
 }
 
 }  // namespace nuvo

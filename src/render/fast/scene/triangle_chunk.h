@@ -37,22 +37,14 @@ struct alignas(64) TriangleBatch {
     }
 };
 
-/// Some triangles by their places: the slots, or those in a list. first is a multiple of
-/// TriangleBatch::kSize.
+/// Some triangles by their places. first is a multiple of TriangleBatch::kSize.
 struct TriangleChunk {
     static constexpr Slot kTriangles = 256;
 
-    /// Fetches the triangles of the slots [first, last).
-    void fetch(const FastScene& scene, Slot first_slot, Slot last_slot) {
-        fetch(scene, nullptr, first_slot, last_slot);
-    }
-    /// Fetches those of places [first, last) of a list of slots; null: of all triangles.
-    void fetch(const FastScene& scene, const BigVector<Slot>* list, Slot first_place,
-               Slot last_place);
+    /// Fetches those of places [first, last).
+    void fetch(const FastScene& scene, SlotList list, Slot first_place, Slot last_place);
 
-    Slot slot(Slot place) const { return slots ? (*slots)[place] : place; }
-
-    const BigVector<Slot>* slots = nullptr;  ///< by place; null: places are slots
+    SlotList slots;
     Slot first = 0;
     Slot last = 0;
     std::array<TriangleBatch, kTriangles / TriangleBatch::kSize> batches;
@@ -65,18 +57,11 @@ struct TriangleChunk {
             work(batches[(slot - first) / TriangleBatch::kSize], slot,
                  std::min<std::size_t>(TriangleBatch::kSize, last - slot));
     }
-
-  private:
-    template <typename SlotAt>
-    void gather(const FastScene& scene, Slot end, SlotAt&& slot_at);
 };
 
-/// Calls work(chunk) for all triangles of the scene, on up to `threads` threads at a time.
-void for_each_chunk(const FastScene& scene, int threads,
-                    const std::function<void(const TriangleChunk&)>& work);
-
-/// The same for the triangles of a list of slots, by their places.
-void for_each_chunk(const FastScene& scene, const BigVector<Slot>& slots, Slot count, int threads,
+/// Calls work(chunk) for the triangles of the first `count` places, on up to `threads` threads at a
+/// time.
+void for_each_chunk(const FastScene& scene, SlotList slots, Slot count, int threads,
                     const std::function<void(const TriangleChunk&)>& work);
 
 }  // namespace nuvo

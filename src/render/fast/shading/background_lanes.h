@@ -8,8 +8,8 @@
 
 #include <limits>
 
+#include "fast/shading/block_directions.h"
 #include "fast/shading/shading.h"
-#include "fast/shading/smooth_normals.h"
 #include "fast/simd/lanes.h"
 #include "fast/simd/vector_math.h"
 

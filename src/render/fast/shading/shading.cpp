@@ -15,7 +15,7 @@ ShadingStage::ShadingStage(const ShadingTables& tables, bool redo_exactly)
 }
 
 void ShadingStage::surface(Tile& tile) {
-    for (LitLanes& lanes : lit_) lanes.fill(0);
+    for (TileMask& lanes : lit_) lanes.fill(0);
     kernels_.surface(*tables_, tile, scratch_);
 }
 
@@ -24,7 +24,7 @@ void ShadingStage::sample(const Tile& tile, std::size_t light, TileMask& wanted)
 }
 
 void ShadingStage::add(std::size_t light, const TileMask& lit) {
-    std::copy(std::begin(lit), std::end(lit), lit_[light].begin());
+    lit_[light] = lit;
     kernels_.add(*tables_, light, lit, scratch_);
 }
 

@@ -81,12 +81,10 @@ class ShadingStage {
     void decide_open(const ExactFallback& fallback, Image& image) { open_.decide(fallback, image); }
 
   private:
-    using LitLanes = std::array<std::uint16_t, kTileBlocks>;
-
     const ShadingTables* tables_;
     ShadingKernels kernels_;
     bool redo_exactly_;
-    std::vector<LitLanes> lit_;  // by light
+    std::vector<TileMask> lit_;  // by light
     OpenPixels open_;
     ShadingScratch scratch_;
 };

@@ -1,5 +1,6 @@
 #include "fast/shading/shading_tables.h"
 
+#include <cstring>
 #include <limits>
 
 #include "nuvo/math/error_bounds.h"
@@ -48,7 +49,7 @@ class TriangleFiller {
         std::uint32_t object = ~0U;
         chunk.for_each_batch(
             [&](const TriangleBatch& batch, Slot place, std::size_t count) HWY_ATTR {
-                const Slot first = chunk.slot(place);  // lists are of whole batches (TriangleSet)
+                const Slot first = chunk.slots[place];  // lists are of whole batches (TriangleSet)
                 for (std::size_t lane = 0; lane < count; ++lane) {
                     const PrimitiveSource& source = scene.source(first + static_cast<Slot>(lane));
                     if (source.object != object) {
@@ -155,12 +156,16 @@ class TriangleFiller {
     }
 
     HWY_INLINE void store_smooth(const WideTriangles& t, const Wide& sign, std::size_t count) {
-        const SmoothFunctions functions(tables_.camera, static_cast<double>(tables_.rays.longest),
-                                        t, load_wide(surfaces_.normal),
-                                        load_wide(surfaces_.normal + 3),
-                                        load_wide(surfaces_.normal + 6), sign);
-        for (std::size_t i = 0; i < count; ++i)
-            if (surfaces_.smooth[i] != nullptr) functions.store(i, *surfaces_.smooth[i]);
+        float functions[SmoothTriangle::kNumbers][kBatch];
+        smooth_functions(tables_.camera, static_cast<double>(tables_.rays.longest), t,
+                         load_wide(surfaces_.normal), load_wide(surfaces_.normal + 3),
+                         load_wide(surfaces_.normal + 6), sign, functions);
+        for (std::size_t i = 0; i < count; ++i) {
+            if (surfaces_.smooth[i] == nullptr) continue;
+            float numbers[SmoothTriangle::kNumbers];
+            for (std::size_t k = 0; k < SmoothTriangle::kNumbers; ++k) numbers[k] = functions[k][i];
+            std::memcpy(surfaces_.smooth[i], numbers, sizeof numbers);
+        }
     }
 
     ShadingTables& tables_;

@@ -373,14 +373,15 @@ ShadingTables::ShadingTables(const FastScene& scene_in, const CameraRays& camera
 
 void ShadingTables::fill(const TriangleSet& some, int threads) {
     const BigVector<Slot> slots = some.slots_beside(triangles.known);
-    for_each_chunk(scene, slots, static_cast<Slot>(slots.size()), threads,
+    for_each_chunk(scene, {&slots}, static_cast<Slot>(slots.size()), threads,
                    [&](const TriangleChunk& chunk) { take(chunk); });
     triangles.known.add(slots);
 }
 
 void ShadingTables::fill_all(int threads) {
     if (triangles.known.has_all()) return;
-    for_each_chunk(scene, threads, [&](const TriangleChunk& chunk) { take(chunk); });
+    for_each_chunk(scene, {}, scene.triangle_end(), threads,
+                   [&](const TriangleChunk& chunk) { take(chunk); });
     triangles.known.add_all();
 }
 

@@ -91,6 +91,8 @@ struct ShadingLight {
 /// the weights of its corners are quotients of affine functions with one denominator. Turned as
 /// shading_normal() turns it; NaN where double is not enough to know. x, y is near the triangle.
 struct alignas(64) SmoothTriangle {
+    static constexpr std::size_t kNumbers = 14;
+
     float at[3];
     float right[3];
     float down[3];

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 
+#include "fast/shading/block_directions.h"
 #include "fast/shading/shading.h"
 #include "fast/simd/lanes.h"
 #include "fast/simd/vector_math.h"
@@ -20,31 +21,6 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace nuvo::HWY_NAMESPACE {
-
-/// The ray directions of a block's lanes.
-class BlockDirections {
-  public:
-    HWY_INLINE BlockDirections(const ShadingTables& tables, const Tile& tile, int b)
-        : rays_(tables.rays),
-          x_(static_cast<std::size_t>(tile.x + lane_x(b * kBlockLanes))),
-          y_(static_cast<std::size_t>(tile.y + lane_y(b * kBlockLanes)) * kBlockSide) {}
-
-    /// Within ShadingRays::error, all axes together.
-    HWY_INLINE Floats at(int axis) const {
-        return Floats::load_repeated(rays_.column[axis].data() + x_) +
-               Floats::load(rays_.row[axis].data() + y_);
-    }
-    /// d.d
-    HWY_INLINE Floats square() const {
-        return Floats::load_repeated(rays_.column_square.data() + x_) +
-               Floats::load(rays_.row_square.data() + y_);
-    }
-
-  private:
-    const ShadingRays& rays_;
-    std::size_t x_;
-    std::size_t y_;
-};
 
 /// The steps of a block's lanes to the right and down.
 struct alignas(64) BlockSteps {
@@ -113,9 +89,6 @@ class SmoothNormalLanes {
     static constexpr float kInfinity = std::numeric_limits<float>::infinity();
     static constexpr float kSecondRound = 1 + roundings(8);
 
-    static double norm1(const Vector3& v) {
-        return std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z);
-    }
     HWY_INLINE Doubles affine_dot(const Vector3& v) const {
         return affine(dot(v, first_direction_), dot(v, tables_.camera.right),
                       dot(v, tables_.camera.down));
@@ -228,7 +201,7 @@ class SmoothNormalLanes {
         // P: of centre and sum, which is at most the radius more, and the radius's times the
         // normal's and two more.
         const float error = (kSphereNormalError + roundings(4)) * radius +
-                            roundings(3) * static_cast<float>(length(center - Point3{})) +
+                            roundings(3) * static_cast<float>(length(center)) +
                             tables_.bounds.world_rounding;
         store_point(point, unit.known, error);
     }
@@ -289,10 +262,10 @@ class SmoothNormalLanes {
         Floats normal[3];
         Floats along(0.0F);
         for (int i = 0; i < 3; ++i) {
-            normal[i] = Floats::load(tile_.quadric_normal[i] + first_);
+            normal[i] = Floats::load(tile_.ellipsoid_normal[i] + first_);
             along = mul_add(normal[i], directions_.at(i), along);
         }
-        const Floats error = Floats::load(tile_.quadric_error + first_) * Floats(kRootOf3);
+        const Floats error = Floats::load(tile_.ellipsoid_normal_error + first_) * Floats(kRootOf3);
         RayMask known = lanes_;
         if (!solid) {
             const float longest = tables_.rays.longest;

@@ -23,82 +23,54 @@ struct WideTriangles {
     Wide3 e2;    ///< a to c
 };
 
-/// Writes the records of 8 triangles with the normals n0, n1, n2 at the corners; `sign` is -1 where
-/// the denominator S is negative or the normal turns, 1 where not or both, NaN where unknown.
-/// With S = d.(e2 x e1), V = d.(from x e2), W = d.(e1 x from) as in surface_point(), the normal is
-/// along n0 S + (n1 - n0) V + (n2 - n0) W. Below 2^-49 of its magnitudes a triple product is noise.
-/// `longest` bounds |d|.
-class SmoothFunctions {
-  public:
-    HWY_INLINE SmoothFunctions(const CameraRays& camera, double longest, const WideTriangles& t,
-                               const Wide3& n0, const Wide3& n1, const Wide3& n2,
-                               const Wide& sign) {
-        const Wide largest = max(max_norm(n0), max(max_norm(n1), max_norm(n2)));
-        const Wide3 s = cross(t.e2, t.e1);
-        const Wide3 v = cross(t.from, t.e2);
-        const Wide3 w = cross(t.e1, t.from);
-        const auto along = [&](const Vector3& axis) HWY_ATTR {
-            const Wide3 d = wide(axis);
-            return n0 * dot(s, d) + (n1 - n0) * dot(v, d) + (n2 - n0) * dot(w, d);
-        };
-        const Wide3 right = along(camera.right);
-        const Wide3 down = along(camera.down);
-        // Near the centroid: precision is best there.
-        const Wide3 center = t.from + (t.e1 + t.e2) * Wide(1.0 / 3);
-        const Wide depth = dot(center, wide(camera.forward));
-        const Wide x = pixel(center, camera.right, depth, camera.resolution.width);
-        const Wide y = pixel(center, camera.down, depth, camera.resolution.height);
-        const Wide3 at = along(camera.forward) + right * x + down * y;
-        const Wide scale = sign / max_norm(at);
-        const Wide edges = norm1(t.e1) + norm1(t.e2);
-        const Wide noise = (norm1(t.from) + edges) * edges * largest * Wide(8 * 0x1p-49 * longest) +
-                           Wide(kSmallest);
-        put(at * scale, 0);
-        put(right * scale, 3);
-        put(down * scale, 6);
-        store_rounded(x, values_[9]);
-        store_rounded(y, values_[10]);
-        // Of each sum in float: the coefficients' rounding, and 3 of the two operations.
-        const Wide rounding = abs(scale) * Wide(static_cast<double>(roundings(4)));
-        store_rounded(mul_add(rounding, size_of(at), abs(scale) * noise), values_[11]);
-        store_rounded(rounding * size_of(right), values_[12]);
-        store_rounded(rounding * size_of(down), values_[13]);
-    }
+/// The coordinate at which the point is seen, an integer; at most the picture's size.
+HWY_INLINE Wide pixel_of(const Wide3& point, const Vector3& axis, const Wide& depth, int size) {
+    const Wide limit(size);
+    const Wide seen = dot(point, wide(axis)) / (depth * Wide(nuvo::dot(axis, axis)));
+    return floor(min(max(seen, -limit), limit));
+}
 
-    void store(std::size_t i, SmoothTriangle& out) const {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            out.at[axis] = value(axis, i);
-            out.right[axis] = value(3 + axis, i);
-            out.down[axis] = value(6 + axis, i);
-        }
-        out.x = value(9, i);
-        out.y = value(10, i);
-        out.error = value(11, i);
-        out.error_right = value(12, i);
-        out.error_down = value(13, i);
-    }
-
-  private:
-    // Products that matter beside it have lost nothing to underflow.
-    static constexpr double kSmallest = 0x1p-1000;
-
-    // The coordinate at which the point is seen, an integer; at most the picture's size.
-    static HWY_INLINE Wide pixel(const Wide3& point, const Vector3& axis, const Wide& depth,
-                                 int size) {
-        const Wide limit(size);
-        const Wide seen = dot(point, wide(axis)) / (depth * Wide(nuvo::dot(axis, axis)));
-        return floor(min(max(seen, -limit), limit));
-    }
-    static HWY_INLINE Wide size_of(const Wide3& v) { return sqrt(dot(v, v)); }
-    HWY_INLINE void put(const Wide3& v, std::size_t row) {
-        store_rounded(v.x, values_[row]);
-        store_rounded(v.y, values_[row + 1]);
-        store_rounded(v.z, values_[row + 2]);
-    }
-    float value(std::size_t row, std::size_t i) const { return values_[row][i]; }
-
-    float values_[14][kBatch];
-};
+/// The numbers of SmoothTriangle of 8 triangles, in its order, with the normals n0, n1, n2 at the
+/// corners; `sign` is -1 where the denominator S is negative or the normal turns, 1 where not or
+/// both, NaN where unknown. With S = d.(e2 x e1), V = d.(from x e2), W = d.(e1 x from) as in
+/// surface_point(), the normal is along n0 S + (n1 - n0) V + (n2 - n0) W. Below 2^-49 of its
+/// magnitudes a triple product is noise. `longest` bounds |d|.
+HWY_INLINE void smooth_functions(const CameraRays& camera, double longest, const WideTriangles& t,
+                                 const Wide3& n0, const Wide3& n1, const Wide3& n2,
+                                 const Wide& sign, float (&out)[SmoothTriangle::kNumbers][kBatch]) {
+    constexpr double kSmallest = 0x1p-1000;  // products that matter beside it have not underflown
+    const Wide largest = max(max_norm(n0), max(max_norm(n1), max_norm(n2)));
+    const Wide3 s = cross(t.e2, t.e1);
+    const Wide3 v = cross(t.from, t.e2);
+    const Wide3 w = cross(t.e1, t.from);
+    const auto along = [&](const Vector3& axis) HWY_ATTR {
+        const Wide3 d = wide(axis);
+        return n0 * dot(s, d) + (n1 - n0) * dot(v, d) + (n2 - n0) * dot(w, d);
+    };
+    const auto size_of = [](const Wide3& u) HWY_ATTR { return sqrt(dot(u, u)); };
+    const Wide3 right = along(camera.right);
+    const Wide3 down = along(camera.down);
+    // Near the centroid: precision is best there.
+    const Wide3 center = t.from + (t.e1 + t.e2) * Wide(1.0 / 3);
+    const Wide depth = dot(center, wide(camera.forward));
+    const Wide x = pixel_of(center, camera.right, depth, camera.resolution.width);
+    const Wide y = pixel_of(center, camera.down, depth, camera.resolution.height);
+    const Wide3 at = along(camera.forward) + right * x + down * y;
+    const Wide scale = sign / max_norm(at);
+    const Wide edges = norm1(t.e1) + norm1(t.e2);
+    const Wide noise =
+        (norm1(t.from) + edges) * edges * largest * Wide(8 * 0x1p-49 * longest) + Wide(kSmallest);
+    // Of each sum in float: the coefficients' rounding, and 3 of the two operations.
+    const Wide rounding = abs(scale) * Wide(static_cast<double>(roundings(4)));
+    store_rounded(at * scale, out);
+    store_rounded(right * scale, out + 3);
+    store_rounded(down * scale, out + 6);
+    store_rounded(x, out[9]);
+    store_rounded(y, out[10]);
+    store_rounded(mul_add(rounding, size_of(at), abs(scale) * noise), out[11]);
+    store_rounded(rounding * size_of(right), out[12]);
+    store_rounded(rounding * size_of(down), out[13]);
+}
 
 }  // namespace nuvo::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

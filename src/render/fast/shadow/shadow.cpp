@@ -198,7 +198,7 @@ void ShadowStage::trace(const Tile& tile, std::size_t light, const TileMask& wan
     if (job_.tables.scene().scene().lights[light].casts_shadow)
         trace_(job_, tile, light, wanted, fallback, lit);
     else
-        std::copy(std::begin(wanted), std::end(wanted), std::begin(lit));
+        lit = wanted;
 }
 
 }  // namespace nuvo

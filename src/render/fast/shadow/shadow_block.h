@@ -144,7 +144,7 @@ class ShadowBlock {
                 mul_add(y, Floats(static_cast<float>(r.y)), z * Floats(static_cast<float>(r.z))));
         };
         const Points points{row(0), row(1), row(2)};
-        const ShadowRays rays(map.to_ball * (light.toward - (map.center - Point3{}) * light.weight),
+        const ShadowRays rays(map.to_ball * (light.toward - map.center * light.weight),
                               light.weight, points);
         const LocalSphere ball{{0, 0, 0}, static_cast<float>(map.radius)};
         const QuadricItem item(ball, side);

@@ -20,15 +20,12 @@ constexpr double kTouch = 8;
 // of a sphere of radius (1 + s) times the longest axis |F| > (1 + s) R'.
 // In the local frame, where no square of what matters leaves the range of doubles; infinite or NaN
 // where the ellipsoid is too thin for them.
-double radius_around(const Ellipsoid& ellipsoid, double scale, double error) {
-    Matrix3 linear = ellipsoid.linear;
-    for (Vector3& row : linear.row) row = row * ellipsoid.radius * scale;
+double radius_around(const Matrix3& linear, double error) {
     const Matrix3 adjugate = linear.adjugate();
     double rho = 0;
     double longest = 0;
     for (int i = 0; i < 3; ++i) {
-        const Vector3& row = adjugate.row[i];
-        rho += std::fabs(row.x) + std::fabs(row.y) + std::fabs(row.z);
+        rho += norm1(adjugate.row[i]);
         longest += dot(linear.row[i], linear.row[i]);
     }
     const double volume = dot(linear.row[0], adjugate.column(0));
@@ -99,12 +96,12 @@ void ShadowTables::make_planes_of_all() {
     std::vector<std::size_t> lights;
     for (std::size_t light = 0; light < tables_.size(); ++light) {
         ShadowTable& table = tables_[light];
-        if (!table.complete || !serves(light)) continue;
+        if (!table.complete() || !serves(light)) continue;
         table.hold_triangles(scene_.triangle_end());
         lights.push_back(light);
     }
     if (lights.empty()) return;
-    for_each_chunk(scene_, threads_, [&](const TriangleChunk& chunk) {
+    for_each_chunk(scene_, {}, scene_.triangle_end(), threads_, [&](const TriangleChunk& chunk) {
         for (const std::size_t light : lights) make_planes(tables_[light], light, chunk);
     });
 }
@@ -112,23 +109,21 @@ void ShadowTables::make_planes_of_all() {
 void ShadowTables::list_wanted(ShadowTable& table, std::size_t light, WantedDepths wanted) {
     table.wanted = std::move(wanted);
     table.slots = wanted_items(items(), *table.wanted, isa_, threads_);
-    table.complete = false;
     LightItems listed = items();
-    listed.slots = &table.slots;
+    listed.slots = table.list();
     table.hold_triangles(listed.triangles());
-    for_each_chunk(scene_, table.slots, table.triangles, threads_,
+    for_each_chunk(scene_, table.list(), table.triangles, threads_,
                    [&](const TriangleChunk& chunk) { make_planes(table, light, chunk); });
 }
 
 void ShadowTables::fill_buffer(ShadowTable& table) const {
     LightItems held = items();
-    if (!table.complete) held.slots = &table.slots;
+    held.slots = table.list();
     held.hides = table.hides.data();
     table.buffer = LightBuffer(table.light, held, isa_);
     if (table.wanted) table.buffer.map.most_moved = table.wanted->map().most_moved;
     if (table.buffer.usable()) return;
     // Walks of the octree ask for all.
-    table.complete = true;
     table.wanted.reset();
     table.slots = {};
 }
@@ -145,26 +140,18 @@ void ShadowTables::take_quadrics(QuadricSpan quadrics) {
         scene_.prefetched_after(quadric);
         const std::size_t i = quadric.slot - scene_.triangle_end();
         const Object& object = scene_.object(quadric.id);
-        quadrics_[i] = quadric_of(object.shape);
+        quadrics_[i] = quadric_of(quadric);
         for (ShadowTable& table : tables_)
             if (!table.quadric_sides.empty())
                 table.quadric_sides[i] = side(table.light, quadrics_[i], object);
     }
 }
 
-LocalSphere ShadowTables::quadric_of(const Shape& shape) const {
-    const LocalFrame& frame = scene_.frame();
-    Point3 center;
-    double radius = 0;
-    if (const auto* sphere = std::get_if<Sphere>(&shape)) {
-        center = sphere->center;
-        radius = sphere->radius * frame.scale;
-    } else {
-        const auto& ellipsoid = std::get<Ellipsoid>(shape);
-        center = ellipsoid.center;
-        radius = radius_around(ellipsoid, frame.scale, touch_);
-    }
-    return {Vec3<float>(frame.local(center)), static_cast<float>(radius)};
+LocalSphere ShadowTables::quadric_of(const QuadricSlot& quadric) const {
+    if (quadric.slot < scene_.sphere_end())
+        return scene_.local(std::get<Sphere>(scene_.object(quadric.id).shape));
+    const BallMap& ball = scene_.ball(quadric.slot);
+    return {Vec3<float>(ball.center), static_cast<float>(radius_around(ball.from_unit, touch_))};
 }
 
 bool ShadowTables::outside_of_all(const LightPoint& light) const {
@@ -204,8 +191,8 @@ LightSide ShadowTables::side(const LightPoint& light, const LocalSphere& shape,
 }
 
 bool ShadowTables::complete() const {
-    return std::none_of(tables_.begin(), tables_.end(),
-                        [](const ShadowTable& table) { return table.wanted.has_value(); });
+    return std::all_of(tables_.begin(), tables_.end(),
+                       [](const ShadowTable& table) { return table.complete(); });
 }
 
 std::size_t ShadowTables::memory_bytes() const {

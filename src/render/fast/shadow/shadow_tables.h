@@ -32,14 +32,16 @@ inline constexpr float kQuadricError = roundings(128);
 struct ShadowTable {
     explicit ShadowTable(const LightPoint& from) : light(from) {}
 
-    Slot slot(Slot place) const { return complete ? place : slots[place]; }
+    /// Of all items.
+    bool complete() const { return !wanted; }
+    SlotList list() const { return complete() ? SlotList{} : SlotList{&slots}; }
+    Slot slot(Slot place) const { return complete() ? place : slots[place]; }
     /// Makes room for so many; none hides anything yet.
     void hold_triangles(Slot count);
 
     LightPoint light;
-    bool complete = true;                ///< all items
+    std::optional<WantedDepths> wanted;  ///< before whose points these may stand; none: all items
     BigVector<Slot> slots;               ///< by place, ascending; unless complete
-    std::optional<WantedDepths> wanted;  ///< before whose points these may stand
     Slot triangles = 0;                  ///< the places of triangles end here
     BigVector<ShadowPlanes> planes;      ///< by place
     BigVector<std::uint8_t> hides;  ///< by place: which triangles may hide something, 8 in a byte;
@@ -101,7 +103,7 @@ class ShadowTables {
     static void forget_outside(ShadowTable& table);
     /// Whether the light is a direction or stands where the scene surely does not reach.
     bool outside_of_all(const LightPoint& light) const;
-    LocalSphere quadric_of(const Shape& shape) const;
+    LocalSphere quadric_of(const QuadricSlot& quadric) const;
     LightSide side(const LightPoint& light, const LocalSphere& shape, const Object& object) const;
 
     const FastScene& scene_;

@@ -6,7 +6,8 @@ namespace nuvo {
 
 void WalkPlanes::make(Batch& batch, std::size_t light, Slot first) {
     const FastScene& scene = tables_.scene();
-    chunk_.fetch(scene, first, std::min<Slot>(first + TriangleBatch::kSize, scene.triangle_end()));
+    chunk_.fetch(scene, {}, first,
+                 std::min<Slot>(first + TriangleBatch::kSize, scene.triangle_end()));
     // Written from place 0 on.
     chunk_.last -= chunk_.first;
     chunk_.first = 0;

@@ -16,7 +16,7 @@ class WalkPlanes {
     /// Null: the triangle hides nothing from the light. Valid until the next call.
     const ShadowPlanes* of(std::size_t light, Slot slot) {
         const ShadowTable& table = tables_.table(light);
-        if (table.complete)
+        if (table.complete())
             return hides(table.hides[slot / 8], slot) ? &table.planes[slot] : nullptr;
         if (batches_.empty()) batches_.resize(kPlaces);
         const Slot first = slot / kEight * kEight;
@@ -28,7 +28,7 @@ class WalkPlanes {
     /// False: what a table holds says that the item hides nothing from the light.
     bool may_hide(std::size_t light, Slot slot) const {
         const ShadowTable& table = tables_.table(light);
-        return !table.complete || slot >= table.triangles || hides(table.hides[slot / 8], slot);
+        return !table.complete() || slot >= table.triangles || hides(table.hides[slot / 8], slot);
     }
 
   private:

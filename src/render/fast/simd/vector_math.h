@@ -105,30 +105,35 @@ inline constexpr float kPi = 3.14159265F;
 inline constexpr float kArcSineByItsSine[] = {0.999999995984F,  0.166667820058F,  0.0749469668742F,
                                               0.0455206356317F, 0.0239939996536F, 0.0424173737598F};
 
-/// The arc sine of 0 <= x <= sqrt(1/2), within kArcSineError, relatively: above 1/2 it is pi / 2 -
-/// 2 asin(sqrt((1 - x) / 2)), at least 0.52, off by pi's rounding, a difference and twice the
-/// arc's, of which the root has one rounding, the polynomial and its product three.
-inline constexpr float kArcSineError = roundings(16);
-HWY_INLINE Floats arc_sine(const Floats& x) {
-    const auto upper = x > Floats(0.5F);
+/// The arc sine of 0 <= x <= 1/2, and of larger x <= 1 that of sqrt((1 - x) / 2), where 1 - x is
+/// exact: asin(x) = pi / 2 - 2 asin(sqrt((1 - x) / 2)).
+struct ReducedArc {
+    RayMask is_rest;  ///< x > 1/2
+    Floats arc;
+};
+HWY_INLINE ReducedArc reduced_arc(const Floats& x) {
+    const RayMask upper = x > Floats(0.5F);
     const Floats square = select(upper, (Floats(1.0F) - x) * Floats(0.5F), x * x);
     const Floats s = select(upper, sqrt(square), x);
-    const Floats arc = s * polynomial(kArcSineByItsSine, square);
-    return select(upper, Floats(kPi / 2) - arc - arc, arc);
+    return {upper, s * polynomial(kArcSineByItsSine, square)};
+}
+
+/// The arc sine of 0 <= x <= sqrt(1/2), within kArcSineError, relatively: above 1/2 it is at least
+/// 0.52, off by pi's rounding, a difference and twice the arc's, of which the root has one
+/// rounding, the polynomial and its product three.
+inline constexpr float kArcSineError = roundings(16);
+HWY_INLINE Floats arc_sine(const Floats& x) {
+    const auto [is_rest, arc] = reduced_arc(x);
+    return select(is_rest, Floats(kPi / 2) - arc - arc, arc);
 }
 
 /// The angle in 0..pi whose cosine is x, |x| <= 1, within kArcError (absolutely; 6.4 u measured
-/// over 4 * 10^6 numbers): pi / 2 - asin(x), near the ends 2 asin(sqrt((1 - |x|) / 2)), where 1 -
-/// |x| is exact. Of results near pi: pi's rounding 1.5 u, two differences of 2 u, and twice the
-/// arc's.
+/// over 4 * 10^6 numbers): pi / 2 - asin(x). Of results near pi: pi's rounding 1.5 u, two
+/// differences of 2 u, and twice the arc's.
 inline constexpr float kArcError = roundings(8);
 HWY_INLINE Floats arc_cosine(const Floats& x) {
-    const Floats size = abs(x);
-    const auto near_end = size > Floats(0.5F);
-    const Floats square = select(near_end, (Floats(1.0F) - size) * Floats(0.5F), size * size);
-    const Floats s = select(near_end, sqrt(square), size);
-    const Floats arc = s * polynomial(kArcSineByItsSine, square);
-    const auto negative = x < Floats(0.0F);
+    const auto [near_end, arc] = reduced_arc(abs(x));
+    const RayMask negative = x < Floats(0.0F);
     const Floats inner = Floats(kPi / 2) - select(negative, -arc, arc);
     const Floats outer = select(negative, Floats(kPi) - arc - arc, arc + arc);
     return select(near_end, outer, inner);

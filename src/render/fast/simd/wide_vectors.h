@@ -34,6 +34,12 @@ HWY_INLINE Wide3 load_wide(const double (*columns)[kColumn], std::size_t first =
     return {Wide::load(columns[0] + first), Wide::load(columns[1] + first),
             Wide::load(columns[2] + first)};
 }
+template <std::size_t kColumn>
+HWY_INLINE void store_rounded(const Wide3& v, float (*columns)[kColumn]) {
+    store_rounded(v.x, columns[0]);
+    store_rounded(v.y, columns[1]);
+    store_rounded(v.z, columns[2]);
+}
 HWY_INLINE Wide3 operator+(const Wide3& a, const Wide3& b) {
     return {a.x + b.x, a.y + b.y, a.z + b.z};
 }

@@ -28,7 +28,7 @@ std::optional<ExactFallback::Nearest> ExactFallback::nearer(int x, int y, Slot s
     Nearest nearest{inverse * (1 - kRounded), inverse * (1 + kRounded), {}};
     if (slot >= scene_.triangle_end()) {
         const Object& object = scene_.object(scene_.id(slot));
-        // As of a solid, so that the normal stays turned outwards. [Tile::quadric_normal]
+        // As of a solid, so that the normal stays turned outwards. [Tile::ellipsoid_normal]
         const Object solid{{}, object.material, object.shape_index, true};
         nearest.normal = kernel_.surface(prepared, *hit, solid).normal;
     }
@@ -37,11 +37,17 @@ std::optional<ExactFallback::Nearest> ExactFallback::nearer(int x, int y, Slot s
 
 ExactFallback::Kernel::Shadow ExactFallback::shadow_ray(int x, int y, Slot lit,
                                                         std::size_t light) const {
+    return kernel_.shadow(surface(x, y, lit), scene_.scene().lights[light]);
+}
+
+const ExactFallback::Kernel::Surface& ExactFallback::surface(int x, int y, Slot lit) const {
+    Surface& kept = surfaces_[static_cast<std::size_t>(y % kTileSide * kTileSide + x % kTileSide)];
+    if (kept.x == x && kept.y == y && kept.slot == lit) return kept.surface;
     const ExactRay prepared = kernel_.prepare(camera_.rays.ray(x, y));
     const auto hit = kernel_.hit_of(prepared, scene_.id(lit));
     const Object& object = scene_.object(scene_.id(lit));
-    const auto surface = kernel_.surface(prepared, *hit, object);
-    return kernel_.shadow(surface, scene_.scene().lights[light]);
+    kept = {x, y, lit, kernel_.surface(prepared, *hit, object)};
+    return kept.surface;
 }
 
 bool ExactFallback::blocks_any(const Kernel::Shadow& ray, std::span<const Slot> leaf) const {

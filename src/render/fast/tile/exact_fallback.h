@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -27,8 +28,7 @@ class ExactFallback {
     ExactFallback(const FastScene& scene, const CameraRays& camera)
         : scene_(scene),
           camera_(camera),
-          kernel_(scene.scene(), scene.primitives(), scene.triangle_box(), std::nullopt,
-                  scene.back_faces()) {}
+          kernel_(scene.scene(), scene.primitives(), std::nullopt, scene.back_faces()) {}
 
     const FastScene& scene() const { return scene_; }
     /// What has been found so far, of use for other pictures.
@@ -102,6 +102,15 @@ class ExactFallback {
         Crowd<Kernel> crowd;
     };
 
+    // Of the pixels of a tile, the latest: each light asks for them.
+    struct Surface {
+        int x = -1;
+        int y = -1;
+        Slot slot = kNoSlot;
+        Kernel::Surface surface{};
+    };
+    const Kernel::Surface& surface(int x, int y, Slot lit) const;
+
     bool box_comes_near(const Kernel::Shadow& ray, PrimitiveId id) const {
         return !Slabs(ray.ray).surely_missed(scene_.primitives().item_boxes[id], ray.end);
     }
@@ -129,6 +138,7 @@ class ExactFallback {
     mutable std::uint64_t spent_ = 0;
     mutable bool is_exhausted_ = false;
     mutable std::unordered_map<const Slot*, LargeLeaf> large_leaves_;  // by their first items
+    mutable std::array<Surface, kTileLanes> surfaces_{};
 };
 
 }  // namespace nuvo

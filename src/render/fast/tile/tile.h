@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "fast/scene/fast_scene.h"
@@ -22,7 +23,7 @@ constexpr int lane_x(int lane) { return (lane / 16 % 4) * 4 + lane % 4; }
 constexpr int lane_y(int lane) { return (lane / 64) * 4 + lane / 4 % 4; }
 
 /// One bit for each lane of each block: bit i of [b] is lane 16 b + i.
-using TileMask = std::uint16_t[kTileBlocks];
+using TileMask = std::array<std::uint16_t, kTileBlocks>;
 
 /// Unless said otherwise lengths are those of the local frame; t counts in units of the ray's
 /// unnormalized direction (CameraRays::direction), whose component along the view is 1.
@@ -36,8 +37,8 @@ struct alignas(64) Tile {
     const Slot* slot;  ///< kNoSlot: the background
     const float* near_low;
     const float* near_high;
-    const float* quadric_normal[3];  ///< of ellipsoids: unit, outwards
-    const float* quadric_error;      ///< bounds the error of quadric_normal on each axis
+    const float* ellipsoid_normal[3];     ///< of ellipsoids: unit, outwards
+    const float* ellipsoid_normal_error;  ///< bounds the error of ellipsoid_normal on each axis
     TileMask hit;
 
     // Surfaces: of lanes that hit something lit.
@@ -52,6 +53,8 @@ struct CameraRays {
     CameraRays(const Camera& camera, Resolution size, const LocalFrame& frame)
         : resolution(size),
           rays(camera, size),
+          eye(camera.position),
+          scale(frame.scale),
           origin(frame.local(camera.position)),
           forward(camera.forward),
           right(rays.step_right()),
@@ -66,6 +69,8 @@ struct CameraRays {
 
     Resolution resolution;
     RayGenerator rays;  ///< the exact rays, in world space
+    Point3 eye;         ///< world space
+    double scale;       ///< of the local frame
     Point3 origin;
     Vector3 forward;
     Vector3 right;  ///< to the next pixel of the row

@@ -1,4 +1,4 @@
-#include "fast/rays/local_ray.h"
+#include "fast/tile/local_ray.h"
 
 #include <algorithm>
 #include <cmath>
