@@ -82,7 +82,9 @@ class TileRun {
           tracer_(scene, primitives_, options_) {}
 
     Image picture(Resolution resolution) { return tracer_.render(resolution); }
-    std::vector<RayAnswer> answers(std::span<const Ray> rays) { return tracer_.closest_hits(rays); }
+    std::vector<RayAnswer> answers(std::span<const Ray> rays) {
+        return tracer_.closest_hits_once(rays);
+    }
     void describe(Pass& pass, const Options&) const {
         pass.name = name_of(kOctreeTypes, tracer_.octree_type());
         pass.memory.primitives = memory_bytes(primitives_);

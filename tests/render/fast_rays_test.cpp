@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <limits>
 
+#include "fast/rays/few_rays.h"
 #include "fast/rays/single_ray.h"
 #include "fast_cases.h"
 #include "nuvo/scene/x3d.h"
@@ -131,20 +132,34 @@ std::string text(const Ray& ray) {
     return out.str();
 }
 
+/// Of tracers of a few rays each, for they end where a structure for rays would pay.
+std::vector<RayAnswer> answers_of_few(const FastScene& fast, std::span<const Ray> rays) {
+    std::vector<RayAnswer> answers(rays.size());
+    for (std::size_t i = 0; i < rays.size();) {
+        const std::size_t answered =
+            FewRays(fast).closest_hits(rays.subspan(i), answers.data() + i);
+        if (answered == 0) ADD_FAILURE() << "no ray of " << fast.slot_end() << " primitives";
+        i += std::max<std::size_t>(answered, 1);
+    }
+    return answers;
+}
+
 /// Compares with brute force; returns the hits.
 int expect_equal(const Scene& scene, std::span<const Ray> rays) {
     const Primitives primitives = flatten(scene, LeafContent::kPrimitives);
     const auto expected = closest_hits(scene, primitives, nullptr, exact_profile(), rays);
     const FastScene fast(scene, primitives, OctreeType::kUniform, 1);
-    for (const InstructionSet isa : supported_instruction_sets()) {
-        const auto found = SingleRays(fast, isa, true).closest_hits(rays);
+    const auto compare = [&](const std::vector<RayAnswer>& found, const std::string& by) {
         EXPECT_EQ(found.size(), rays.size());
         for (std::size_t i = 0; i < rays.size(); ++i)
             EXPECT_TRUE(same(found[i], expected[i]))
-                << "ray " << i << " " << text(rays[i]) << ", instruction set "
-                << static_cast<int>(isa) << ": " << text(found[i]) << " instead of "
-                << text(expected[i]);
-    }
+                << "ray " << i << " " << text(rays[i]) << ", " << by << ": " << text(found[i])
+                << " instead of " << text(expected[i]);
+    };
+    for (const InstructionSet isa : supported_instruction_sets())
+        compare(SingleRays(fast, isa, true).closest_hits(rays),
+                "instruction set " + std::to_string(static_cast<int>(isa)));
+    compare(answers_of_few(fast, rays), "few rays");
     return static_cast<int>(
         std::count_if(expected.begin(), expected.end(), [](const auto& a) { return a.hit; }));
 }

@@ -88,7 +88,7 @@ TEST(SegmentWalk, StopsWhereItIsTold) {
     const Primitives primitives = flatten(scene, LeafContent::kPrimitives);
     const FastScene fast(scene, primitives, OctreeType::kUniform, 1);
     int leaves = 0;
-    const SegmentWalk walk(ExactRay(Ray{{-3, 0, 0}, {1, 0, 0}}), 10, fast.frame());
+    SegmentWalk walk(ExactRay(Ray{{-3, 0, 0}, {1, 0, 0}}), 10, fast.frame());
     EXPECT_TRUE(walk.any(fast.octree(),
                          [&](const std::uint32_t*, std::uint32_t) { return ++leaves == 2; }));
     EXPECT_EQ(leaves, 2);

@@ -76,6 +76,8 @@ class FastTracer {
     Image render(Resolution resolution, FastTimes* times = nullptr);
     /// The closest hit of each ray, as closest_hits() answers it. Keeps tables for the next calls.
     std::vector<RayAnswer> closest_hits(std::span<const Ray> rays);
+    /// The same of rays after which no others come: for few no tables are made.
+    std::vector<RayAnswer> closest_hits_once(std::span<const Ray> rays);
 
     /// Counted in a run of its own, by the exact profile's decisions, so that it does not depend on
     /// what the float stages leave open.

@@ -1,10 +1,16 @@
 #include "nuvo/render/fast.h"
 
+#include <algorithm>
+
 #include "fast/frame/count.h"
 #include "fast/frame/frame.h"
+#include "fast/frame/serial_pixels.h"
+#include "fast/primary/macro_tile.h"
+#include "fast/rays/few_rays.h"
 #include "fast/rays/single_ray.h"
 #include "fast/simd/dispatch.h"
 #include "nuvo/math/big_vector.h"
+#include "nuvo/math/parallel.h"
 
 namespace nuvo {
 namespace {
@@ -12,6 +18,23 @@ namespace {
 FastOptions with_isa(FastOptions options) {
     options.isa = resolved(options.isa);
     return options;
+}
+
+// Where no tables can be made for the camera's rays.
+Image serial_picture(SerialTree& serial, const FastOptions& options, Resolution size) {
+    serial.octree(options.progress);
+    const RayGenerator rays(serial.scene().scene().camera, size);
+    const std::vector<TilePlace> tiles = macro_tiles(size);
+    std::vector<std::unique_ptr<SerialPixels>> pixels(static_cast<std::size_t>(options.threads));
+    Image image = Image::unset(size.width, size.height);
+    begin(options.progress, "macro tiles", tiles.size());
+    for_each_index(options.threads, tiles.size(), [&](std::size_t i, int thread) {
+        std::unique_ptr<SerialPixels>& own = pixels[static_cast<std::size_t>(thread)];
+        if (!own) own = std::make_unique<SerialPixels>(serial);
+        own->draw(rays, tiles[i].x, tiles[i].y, kMacroSide, image);
+        add(options.progress, 1);
+    });
+    return image;
 }
 
 }  // namespace
@@ -40,12 +63,7 @@ FastTracer& FastTracer::operator=(FastTracer&&) noexcept = default;
 
 Image FastTracer::render(Resolution resolution, FastTimes* times) {
     const FastScene& fast = state_->fast;
-    if (!Frame::can_show(fast)) {
-        SerialTree& serial = state_->serial;
-        Progress* const progress = state_->options.progress;
-        return nuvo::render(fast.scene(), fast.primitives(), serial.octree(progress),
-                            serial.profile(), resolution, progress);
-    }
+    if (!Frame::can_show(fast)) return serial_picture(state_->serial, state_->options, resolution);
     Frame frame(state_->serial, state_->options, resolution, times, state_->kept);
     Image image = frame.render();
     state_->table_bytes = frame.memory_bytes();
@@ -61,6 +79,16 @@ std::vector<RayAnswer> FastTracer::closest_hits(std::span<const Ray> rays) {
         single = std::make_unique<SingleRays>(state_->fast, state_->options.isa,
                                               state_->options.redo_exactly);
     return single->closest_hits(rays, state_->options.progress, &state_->serial);
+}
+
+std::vector<RayAnswer> FastTracer::closest_hits_once(std::span<const Ray> rays) {
+    if (state_->single || !state_->fast.is_ordinary()) return closest_hits(rays);
+    std::vector<RayAnswer> answers(rays.size());
+    const std::size_t answered = FewRays(state_->fast).closest_hits(rays, answers.data());
+    if (answered == rays.size()) return answers;
+    const std::vector<RayAnswer> rest = closest_hits(rays.subspan(answered));
+    std::copy(rest.begin(), rest.end(), answers.begin() + static_cast<std::ptrdiff_t>(answered));
+    return answers;
 }
 
 RayCounts FastTracer::count_rays(Resolution resolution) const {

@@ -14,29 +14,37 @@ namespace nuvo {
 /// floats leave most of the items open it meets only those near the ray.
 class SegmentWalk {
   public:
-    SegmentWalk(const ExactRay& ray, double end, const LocalFrame& frame) : end_(end) {
+    SegmentWalk(const ExactRay& ray, double end, const LocalFrame& frame)
+        : SegmentWalk(frame.local(ray.origin()), ray.direction() * frame.scale, end, 0) {}
+    /// In the local frame, from an origin that is off by up to `error` on each axis.
+    SegmentWalk(const Point3& origin, const Vector3& direction, double end, double error)
+        : end_(end), error_(error) {
         for (int axis = 0; axis < 3; ++axis) {
-            origin_[axis] = (ray.origin()[axis] - frame.center[axis]) * frame.scale;
-            const double d = ray.direction()[axis] * frame.scale;
-            crosses_[axis] = d != 0;
-            inverse_[axis] = 1 / d;
-            if (d < 0) flip_ |= 1U << axis;
+            origin_[axis] = origin[axis];
+            crosses_[axis] = direction[axis] != 0;
+            inverse_[axis] = 1 / direction[axis];
+            if (direction[axis] < 0) flip_ |= 1U << axis;
         }
     }
+
+    /// From now on nothing beyond this is asked for.
+    void end_at(double t) { end_ = t; }
 
     /// Calls leaf(items, count) for each leaf that the ray may meet, about from near to far, until
     /// it returns true; then returns true.
     template <typename Leaf>
-    bool any(const CompactOctree& octree, Leaf&& leaf) const {
+    bool any(const CompactOctree& octree, Leaf&& leaf) {
         struct Place {
             std::uint32_t node;
             Bounds3T<float> voxel;
+            double entry;
         };
         Place places[CompactOctree::kMostWaiting];
         int waiting = 0;
-        places[waiting++] = {0, octree.bounds};
+        places[waiting++] = {0, octree.bounds, 0};
         while (waiting != 0) {
             const Place at = places[--waiting];
+            if (at.entry > end_) continue;
             const CompactNode& node = octree.nodes[at.node];
             if (node.is_leaf()) {
                 if (leaf(octree.items.data() + node.first_item(), node.item_count())) return true;
@@ -54,7 +62,8 @@ class SegmentWalk {
                 Interval t{0, end_};
                 for (int axis = 0; axis < 3; ++axis) t.cut_by(half[axis][octant >> axis & 1]);
                 if (t.first > t.last) continue;
-                places[waiting++] = {node.child(octant), octant_box(at.voxel, node.cut, octant)};
+                places[waiting++] = {node.child(octant), octant_box(at.voxel, node.cut, octant),
+                                     t.first};
             }
         }
         return false;
@@ -80,7 +89,7 @@ class SegmentWalk {
     Interval within(int axis, double low, double high) const {
         constexpr double kInfinity = std::numeric_limits<double>::infinity();
         const double origin = origin_[axis];
-        const double slack = kOriginSlack * std::fabs(origin) + 4 * kUnderflow;
+        const double slack = kOriginSlack * std::fabs(origin) + error_ + 4 * kUnderflow;
         if (!crosses_[axis])
             return origin < low - slack || origin > high + slack ? Interval{kInfinity, -kInfinity}
                                                                  : Interval{-kInfinity, kInfinity};
@@ -94,6 +103,7 @@ class SegmentWalk {
     }
 
     double end_;
+    double error_;
     double origin_[3];
     double inverse_[3];
     bool crosses_[3];
