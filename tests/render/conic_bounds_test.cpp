@@ -171,7 +171,7 @@ TEST(ConicBounds, HoldForSpheres) {
             const FastScene& fast = one.fast;
             const CameraRays& camera = one.camera;
             const CameraSphere& sphere = one.tables.spheres[0];
-            if (sphere.exactly) continue;
+            if (sphere.floats_cannot_tell) continue;
             ConicAnswers found;
             ask(camera, tile_x, tile_y, sphere, nullptr, found);
             ++judged;
@@ -221,7 +221,7 @@ TEST(ConicBounds, HoldForEllipsoids) {
             const FastScene& fast = one.fast;
             const CameraRays& camera = one.camera;
             const CameraSphere& ball = one.tables.balls[0];
-            if (ball.exactly) continue;
+            if (ball.floats_cannot_tell) continue;
             const BallMap& map = fast.ball(0);
             ConicAnswers found;
             ask(camera, tile_x, tile_y, ball, &map, found);

@@ -157,7 +157,7 @@ int expect_equal(const Scene& scene, std::span<const Ray> rays) {
                 << " instead of " << text(expected[i]);
     };
     for (const InstructionSet isa : supported_instruction_sets())
-        compare(SingleRays(fast, isa, true).closest_hits(rays),
+        compare(SingleRays(fast, isa).closest_hits(rays),
                 "instruction set " + std::to_string(static_cast<int>(isa)));
     compare(answers_of_few(fast, rays), "few rays");
     return static_cast<int>(
@@ -438,7 +438,7 @@ TEST(SingleRays, AnswerAsTheSerialTracerOnTheThesisScenes) {
         const auto expected = closest_hits(scene, primitives, &octree, exact_profile(), rays);
         const FastScene fast(scene, primitives, OctreeType::kNonuniform, 1);
         for (const InstructionSet isa : supported_instruction_sets()) {
-            const auto found = SingleRays(fast, isa, true).closest_hits(rays);
+            const auto found = SingleRays(fast, isa).closest_hits(rays);
             int different = 0;
             for (std::size_t i = 0; i < rays.size(); ++i) different += !same(found[i], expected[i]);
             EXPECT_EQ(different, 0) << "instruction set " << static_cast<int>(isa);

@@ -29,7 +29,7 @@ struct Subject {
         return Frame(serial, options, kSize, nullptr, kept, listing).render();
     }
     std::vector<RayAnswer> hits(std::span<const Ray> rays) {
-        return SingleRays(fast, InstructionSet::kBest, true).closest_hits(rays, nullptr, &serial);
+        return SingleRays(fast, InstructionSet::kBest).closest_hits(rays, nullptr, &serial);
     }
     std::vector<Ray> rays() const {
         const RayGenerator camera(scene.camera, kSize);

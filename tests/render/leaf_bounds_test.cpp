@@ -37,13 +37,11 @@ void put(const LeafHits<kLeafLanes>& hits, LeafAnswers& out) {
 }
 void ask_triangles(const LeafQuestion& q, const std::uint16_t* corners, LeafAnswers& out) {
     const RayAtLeaf ray(q.rays, 0, q.head, q.entry);
-    put(test_triangles<kLeafLanes>(ray, corners, kLeafLanes, LeafMask::from_bits(q.front), 1.0F),
-        out);
+    put(test_triangles<kLeafLanes>(ray, corners, kLeafLanes, LeafMask::from_bits(q.front)), out);
 }
 void ask_spheres(const LeafQuestion& q, const float* values, LeafAnswers& out) {
     const RayAtLeaf ray(q.rays, 0, q.head, q.entry);
-    put(test_spheres<kLeafLanes>(ray, values, kLeafLanes, kLeafLanes, LeafMask::from_bits(q.front),
-                                 1.0F),
+    put(test_spheres<kLeafLanes>(ray, values, kLeafLanes, kLeafLanes, LeafMask::from_bits(q.front)),
         out);
 }
 

@@ -136,7 +136,7 @@ TEST_F(TriangleChunkTest, SidesOfALightAreKnownWhereItStandsWithinTheScene) {
         const LightSide side =
             sides.empty() ? LightSide::kOutside : sides[slot - fast_.triangle_end()];
         const LightSide within = scene_.objects[fast_.source(slot).object].solid
-                                     ? LightSide::kBlind
+                                     ? LightSide::kNoShadow
                                      : LightSide::kInside;
         EXPECT_EQ(side, gap > 0 ? LightSide::kOutside : within);
     }
@@ -148,7 +148,8 @@ TEST_F(TriangleChunkTest, ALightWithinASphereIsInsideOfIt) {
         scene_.objects[3].solid = solid;
         ShadowTables tables(fast_, resolved(InstructionSet::kBest));
         ASSERT_FALSE(tables.table(1).quadric_sides.empty());
-        EXPECT_EQ(tables.table(1).quadric_sides[0], solid ? LightSide::kBlind : LightSide::kInside);
+        EXPECT_EQ(tables.table(1).quadric_sides[0],
+                  solid ? LightSide::kNoShadow : LightSide::kInside);
     }
 }
 
@@ -161,7 +162,7 @@ TEST_F(TriangleChunkTest, NothingThatCastsNoShadowHidesAnything) {
         for (Slot slot = 0; slot < fast.triangle_end(); ++slot)
             ASSERT_EQ(tables.table(light).hides[slot / 8] >> slot % 8 & 1, 0);
         for (const LightSide side : tables.table(light).quadric_sides)
-            ASSERT_EQ(side, LightSide::kBlind);
+            ASSERT_EQ(side, LightSide::kNoShadow);
         EXPECT_EQ(tables.table(light).quadric_sides.size(), fast.slot_end() - fast.triangle_end());
     }
 }

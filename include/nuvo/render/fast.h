@@ -30,8 +30,8 @@ struct FastOptions {
     std::optional<OctreeType> type;
     int threads = 1;  ///< >= 1; the picture does not depend on it
     InstructionSet isa = InstructionSet::kBest;
-    /// False: what the float stage leaves open is decided by its rounded values. For measuring what
-    /// exactness costs; pictures may then differ from the exact profile's.
+    /// False: what the float stages of pictures leave open is decided by their rounded values. For
+    /// measuring what exactness costs; pictures may then differ from the exact profile's.
     bool redo_exactly = true;
     BackFaces back_faces = BackFaces::kSolid;
     Progress* progress = nullptr;  ///< of whatever the tracer is doing; outlives it

@@ -45,8 +45,8 @@ CameraSphere make_sphere(const Vector3& from, double r, double error, double cro
     out.inverse_power = static_cast<float>(1 / power);
     out.power_error = bound(2 * error / std::fabs(power) + roundings(4));
     out.cross_error = bound(cross_error);
-    out.exactly = !(std::fabs(power) > 4 * error && std::isfinite(out.inverse_power) &&
-                    std::isnormal(out.radius) && std::isfinite(out.cross_error));
+    out.floats_cannot_tell = !(std::fabs(power) > 4 * error && std::isfinite(out.inverse_power) &&
+                               std::isnormal(out.radius) && std::isfinite(out.cross_error));
     return out;
 }
 
@@ -68,7 +68,7 @@ CameraSphere make_ball(const BallMap& map, const Vector3& from, double direction
         f, map.radius,
         gamma(8) * (dot(f, f) + map.radius * map.radius) + 3 * f_error * (2 * f_size + f_error),
         gamma(32) * f_size * d_size + 4 * (f_size * d_error + f_error * (d_size + d_error)));
-    out.exactly |= !map.sure;
+    out.floats_cannot_tell |= !map.sure;
     return out;
 }
 
@@ -87,7 +87,7 @@ CameraTables::CameraTables(const FastScene& scene, const CameraRays& camera, Ins
     for_each_part(threads, spheres.size(), [&](std::size_t begin, std::size_t end) {
         make_boxes(camera, spheres.data() + begin, end - begin, boxes.data() + begin);
         for (std::size_t i = begin; i < end; ++i)
-            if (spheres[i].hidden) boxes[i] = kNoPixels;
+            if (spheres[i].unseen) boxes[i] = kNoPixels;
     });
 }
 
@@ -105,20 +105,20 @@ void CameraTables::make_spheres(QuadricSpan quadrics) {
         if (const auto* sphere = std::get_if<Sphere>(&shape)) {
             out = make_local_sphere((eye - sphere->center) * scale, sphere->radius * scale,
                                     direction);
-            out.hidden = front_only && !out.exactly && out.inverse_power < 0;
+            out.unseen = front_only && !out.floats_cannot_tell && out.inverse_power < 0;
         } else {
             const Bounds3 box = bounds(shape);
             // Halves do not overflow.
             const Vector3 half = (box.max * 0.5 - box.min * 0.5) * scale;
             const double r = length(half) * (1 + gamma(64)) + kFloatUnderflow;
             out = make_local_sphere((eye - box.center()) * scale, r, direction);
-            out.exactly = true;
+            out.floats_cannot_tell = true;
             CameraSphere& ball = balls[quadric.slot - scene_.sphere_end()];
             const Point3& center = std::get<Ellipsoid>(shape).center;
             ball = make_ball(scene_.ball(quadric.slot), (eye - center) * scale, direction);
             ball.material = object.material;
             ball.solid = object.solid;
-            out.hidden = front_only && !ball.exactly && ball.inverse_power < 0;
+            out.unseen = front_only && !ball.floats_cannot_tell && ball.inverse_power < 0;
         }
         out.material = object.material;
         out.solid = object.solid;

@@ -5,11 +5,9 @@
 #include "nuvo/math/big_vector.h"
 #include "nuvo/render/fast.h"
 
-// Tables for rays with a common origin. Against one triangle the edge functions of all pixels are
-// affine in the pixel's coordinates (Olano and Greer 1997, "Triangle scan conversion using 2D
-// homogeneous coordinates"), and so is the inverse of t: a test of 16 rays is a handful of
-// multiply-adds. For a sphere the vector f x d is affine, and the ray's distance from the centre
-// comes from it without cancellation (Haines et al. 2019).
+// What rays with a common origin ask of primitives. Of a sphere the vector f x d is affine in the
+// pixel's coordinates, and the ray's distance from the centre comes from it without cancellation
+// (Haines et al. 2019).
 
 namespace nuvo {
 
@@ -52,8 +50,8 @@ struct alignas(64) CameraSphere {
     float cross_error;       ///< bounds the error of f x d in double on each axis, over the picture
     std::uint32_t material;  ///< index into Scene::materials
     bool solid;
-    bool hidden;   ///< the camera is surely inside, where a back that nobody sees is turned to it
-    bool exactly;  ///< floats cannot tell: the camera is at the surface, or an ellipsoid too flat
+    bool unseen;  ///< the camera is surely inside, where a back that nobody sees is turned to it
+    bool floats_cannot_tell;  ///< the camera is at the surface, or an ellipsoid too flat
 };
 static_assert(sizeof(CameraSphere) == 64);
 
@@ -85,7 +83,7 @@ class CameraTables {
     SeenQuadric seen(Slot slot) const {
         if (slot >= scene_.sphere_end()) {
             const CameraSphere& ball = balls[slot - scene_.sphere_end()];
-            if (!ball.exactly) return {&ball, &scene_.ball(slot)};
+            if (!ball.floats_cannot_tell) return {&ball, &scene_.ball(slot)};
         }
         return {&spheres[slot - scene_.triangle_end()], nullptr};
     }

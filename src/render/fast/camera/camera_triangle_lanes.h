@@ -13,6 +13,10 @@
 #include "fast/simd/wide_vectors.h"
 #include "nuvo/math/error_bounds.h"
 
+// Against one triangle the edge functions of all pixels are affine in the pixel's coordinates
+// (Olano and Greer 1997, "Triangle scan conversion using 2D homogeneous coordinates"), and so is
+// the inverse of t: a test of 16 rays is a handful of multiply-adds.
+//
 // u, v, w are the triple products of the ray's direction with the planes through the eye and an
 // edge, turned so that they are positive where the line enters at t > 0; with K = n.(a - eye),
 // t = K / (u + v + w) and u + v + w = n.d. Eight triangles at a time, in double.
@@ -34,7 +38,7 @@ class TriangleMaker {
     /// back to the eye that nobody sees; where all do so nothing is made of them.
     struct Found {
         std::uint32_t unknown;
-        std::uint32_t hidden;
+        std::uint32_t back_facing;
     };
     HWY_INLINE Found make(const TriangleBatch& batch, CameraTriangle* out, std::size_t count) {
         const Wide3 p = load_wide(batch.corner);
@@ -69,7 +73,7 @@ class TriangleMaker {
         // Where K is known it has the sign of the exact one.
         const Found found{~known_.bits() & there,
                           (known_ & (constant > Wide(0.0))).bits() & batch.front_only & there};
-        if (found.hidden == there) return found;
+        if (found.back_facing == there) return found;
         put_edge(0, cross(b, bc) * sign, edge_error);
         put_edge(1, cross(c, ca) * sign, edge_error);
         put_edge(2, cross(a, ab) * sign, edge_error);

@@ -133,9 +133,9 @@ class PixelBoxMaker {
         alignas(64) float end[2][kGroup];
         alignas(64) float near[kGroup];
         const std::uint32_t sure = usable_ ? known.bits() : 0;
-        const std::uint32_t hidden = behind.bits() & ~sure & (usable_ ? ~0U : 0U);
-        const auto all = Singles::Mask::from_bits(~(sure | hidden));
-        const auto none = Singles::Mask::from_bits(hidden);
+        const std::uint32_t surely_behind = behind.bits() & ~sure & (usable_ ? ~0U : 0U);
+        const auto all = Singles::Mask::from_bits(~(sure | surely_behind));
+        const auto none = Singles::Mask::from_bits(surely_behind);
         for (int k = 0; k < 2; ++k) {
             const Singles least = low[k] - abs(low[k]) * Singles(roundings(8));
             const Singles most = high[k] + abs(high[k]) * Singles(roundings(8));

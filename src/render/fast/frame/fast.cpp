@@ -75,9 +75,7 @@ std::vector<RayAnswer> FastTracer::closest_hits(std::span<const Ray> rays) {
     if (!state_->fast.is_ordinary())
         return state_->serial.closest_hits(rays, state_->options.progress);
     std::unique_ptr<SingleRays>& single = state_->single;
-    if (!single)
-        single = std::make_unique<SingleRays>(state_->fast, state_->options.isa,
-                                              state_->options.redo_exactly);
+    if (!single) single = std::make_unique<SingleRays>(state_->fast, state_->options.isa);
     return single->closest_hits(rays, state_->options.progress, &state_->serial);
 }
 

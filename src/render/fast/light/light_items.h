@@ -8,9 +8,9 @@
 
 namespace nuvo {
 
-/// Where a light stands towards a quadric; kBlind: it sees no front of it, or the shape casts
+/// Where a light stands towards a quadric; kNoShadow: it sees no front of it, or the shape casts
 /// no shadow.
-enum class LightSide : std::uint8_t { kOutside, kInside, kBlind, kUnknown };
+enum class LightSide : std::uint8_t { kOutside, kInside, kNoShadow, kUnknown };
 
 /// What may stand in a light's way: items by their places in a list.
 struct LightItems {

@@ -78,7 +78,7 @@ class PrimaryTracer {
         const CompactOctree& octree = job_.scene.octree();
         const Slot triangle_end = job_.scene.triangle_end();
         const Frustum frustum(job_.camera, tile_, job_.scene.reach());
-        CulledTriangles triangles(job_.scene, job_.camera, frustum);
+        TriangleQueue triangles(job_.scene, job_.camera, frustum);
         const auto fetch = [&](const Slot* slots, std::size_t count)
                                HWY_ATTR { advance_triangles(slots, count); };
         job_.mailbox.start();
@@ -105,7 +105,7 @@ class PrimaryTracer {
 
   private:
     static constexpr std::size_t kBatch = BoxCulling::kBatch;
-    static_assert(kBatch == CulledTriangles::kBatch && kBatch == CornerFetch::kBatch &&
+    static_assert(kBatch == TriangleQueue::kBatch && kBatch == CornerFetch::kBatch &&
                   kBatch == SphereConics::kMost);
     // Up to so many blocks are tested one by one: from 2 to 7 the time was the same.
     static constexpr int kFewBlocks = 4;
@@ -131,13 +131,13 @@ class PrimaryTracer {
         const std::size_t chosen = choose(count);
         CameraTriangle triangles[kBatch];
         bool made[kBatch / kHalf] = {};
-        std::uint32_t hidden = 0;
+        std::uint32_t unseen = 0;
         for (std::size_t c = 0; c < chosen; ++c) {
             const auto i = static_cast<std::size_t>(chosen_[c]);
             const std::size_t half = i / kHalf;
-            if (!made[half]) hidden |= make(half, triangles + half * kHalf) << half * kHalf;
+            if (!made[half]) unseen |= make(half, triangles + half * kHalf) << half * kHalf;
             made[half] = true;
-            if ((hidden >> i & 1) != 0) continue;
+            if ((unseen >> i & 1) != 0) continue;
             for_each_tile(boxes[i], c, [&](int t, std::uint32_t blocks) HWY_ATTR {
                 test_triangle(triangles[i], corners_.slot(i), t, blocks);
             });
@@ -148,14 +148,14 @@ class PrimaryTracer {
     // Returns which of them are not seen from the eye, wherever they lie.
     HWY_INLINE std::uint32_t make(std::size_t half, CameraTriangle* triangles) {
         const TriangleBatch& batch = corners_.corners(half);
-        auto [unknown, hidden] = triangle_maker_.make(batch, triangles, TriangleBatch::kSize);
+        auto [unknown, unseen] = triangle_maker_.make(batch, triangles, TriangleBatch::kSize);
         for (; HWY_UNLIKELY(unknown != 0); unknown &= unknown - 1) {
             const auto i = static_cast<std::size_t>(std::countr_zero(unknown));
             if (!make_exact_camera_triangle(job_.camera, batch.triangle(i),
                                             (batch.front_only >> i & 1) != 0, triangles[i]))
-                hidden |= 1U << i;
+                unseen |= 1U << i;
         }
-        return hidden;
+        return unseen;
     }
 
     HWY_INLINE std::size_t choose(std::size_t count) {
@@ -314,7 +314,7 @@ class PrimaryTracer {
         const Candidates found(tile_, b, hits.low, hits.high);
         RayMask sure = (discriminant > Floats(conics_.error(i))) & found.surely_nearer;
         RayMask open = without(perhaps & found.perhaps_nearer, sure);
-        if (s.exactly || !conics_.known(i)) {
+        if (s.floats_cannot_tell || !conics_.known(i)) {
             sure = RayMask::from_bits(0);
             open = perhaps;
         } else if (!job_.redo_exactly) {

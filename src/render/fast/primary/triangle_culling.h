@@ -48,7 +48,7 @@ class TriangleCulling {
         const RayMask kept = frustum_.may_cover(at, size);
         const std::uint32_t front_only = scene_.front_only(slots);
         if (front_only == 0) return kept;
-        return without(kept, RayMask::from_bits(front_only) & hidden(at, size));
+        return without(kept, RayMask::from_bits(front_only) & back_facing(at, size));
     }
 
   private:
@@ -57,7 +57,7 @@ class TriangleCulling {
     static constexpr float kCoordinateError = roundings(8);
 
     // Those that surely turn their backs to the eye: (b - a) x (c - a) . (a - eye) > 0.
-    HWY_INLINE RayMask hidden(const Floats (&at)[3][3], const Floats (&size)[3]) const {
+    HWY_INLINE RayMask back_facing(const Floats (&at)[3][3], const Floats (&size)[3]) const {
         Floats ab[3];
         Floats ac[3];
         Floats from_eye[3];
@@ -90,11 +90,11 @@ class TriangleCulling {
 
 /// Triangles on their way through that test, 16 at a time; each waits for a batch more, until its
 /// floats have arrived.
-class CulledTriangles {
+class TriangleQueue {
   public:
     static constexpr std::size_t kBatch = TriangleCulling::kBatch;
 
-    CulledTriangles(const FastScene& scene, const CameraRays& camera, const Frustum& frustum)
+    TriangleQueue(const FastScene& scene, const CameraRays& camera, const Frustum& frustum)
         : triangles_(scene.triangles()), culling_(scene, camera, frustum) {}
 
     /// Adds one. Calls use(slots, kBatch) for those that may show.

@@ -190,8 +190,7 @@ class InterleavedRays {
         in_blocks(triangles, [&](auto block, std::uint32_t i) HWY_ATTR {
             constexpr std::size_t kLanes = block;
             take(state, at,
-                 test_triangles<kLanes>(at, corners + i, triangles, front_only<kLanes>(slots + i),
-                                        rays_.bounds_scale()),
+                 test_triangles<kLanes>(at, corners + i, triangles, front_only<kLanes>(slots + i)),
                  slots + i, triangles - i);
         });
         const Slot* const sphere_slots = slots + triangles;
@@ -199,7 +198,7 @@ class InterleavedRays {
             constexpr std::size_t kLanes = block;
             take(state, at,
                  test_spheres<kLanes>(at, centers + i, spheres, spheres - i,
-                                      front_only<kLanes>(sphere_slots + i), rays_.bounds_scale()),
+                                      front_only<kLanes>(sphere_slots + i)),
                  sphere_slots + i, spheres - i);
         });
         if (others != 0) add_open(state, other_slots, others);

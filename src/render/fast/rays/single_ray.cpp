@@ -38,12 +38,11 @@ HWY_AFTER_NAMESPACE();
 
 namespace nuvo {
 
-SingleRays::SingleRays(const FastScene& scene, InstructionSet isa, bool redo_exactly)
+SingleRays::SingleRays(const FastScene& scene, InstructionSet isa)
     : scene_(scene),
       kernel_(scene.scene(), scene.primitives(), std::nullopt, scene.back_faces()),
       tree_(scene),
       roots_(resolved(isa)),
-      bounds_scale_(redo_exactly ? 1.0F : 0.0F),
       walk_(NUVO_FOR_ISA(resolved(isa), walk_rays)) {
     for (const Object& object : scene.scene().objects) {
         const auto* const mesh = std::get_if<TriangleMesh>(&object.shape);

@@ -14,9 +14,9 @@
 #include "fast/tile/serial_tree.h"
 #include "nuvo/render/fast.h"
 
-// Rays that have nothing in common, each on its own: a step decides on 16 voxels or 8 to
-// 16 primitives at once (interleaved_rays.h), floats with proven bounds leave almost nothing open,
-// and what they do leave goes to the predicates of the serial tracer.
+// Incoherent rays, each on its own: a step decides on 16 voxels or 8 to 16 primitives at once
+// (interleaved_rays.h), floats with proven bounds leave almost nothing open, and what they do leave
+// goes to the predicates of the serial tracer.
 
 namespace nuvo {
 
@@ -29,8 +29,8 @@ class SingleRays {
 
   public:
     /// Keeps a reference to the scene, which is_ordinary(); makes copies of its own in a layout for
-    /// rays. `redo_exactly`: see FastOptions.
-    SingleRays(const FastScene& scene, InstructionSet isa, bool redo_exactly);
+    /// rays.
+    SingleRays(const FastScene& scene, InstructionSet isa);
 
     /// What closest_hits() of the exact profile answers. Where floats leave most to exact tests the
     /// rest is left to the serial tracer, if there is one.
@@ -46,12 +46,8 @@ class SingleRays {
     // For the walks.
     const FastScene& scene() const { return scene_; }
     const WideOctree& tree() const { return tree_; }
-    /// What the bounds of the float stage are multiplied with: 1, or 0 for measuring their price.
-    float bounds_scale() const { return bounds_scale_; }
     /// After `rays` of this call.
-    bool gives_up(std::size_t rays) const {
-        return bounds_scale_ != 0 && tests_ > serial_cost(rays_ + rays, scene_);
-    }
+    bool gives_up(std::size_t rays) const { return tests_ > serial_cost(rays_ + rays, scene_); }
     /// The nearest of the candidates by exact arithmetic, if any is met. The ray is the lane-th
     /// one of `lanes`.
     std::optional<RayCandidate> decide(const Ray& ray, const RayLanes& lanes, std::size_t lane,
@@ -94,7 +90,6 @@ class SingleRays {
     WideOctree tree_;
     std::vector<MeshPlace> meshes_;  // by object
     PairRootStage roots_;
-    float bounds_scale_;
     std::size_t (*walk_)(SingleRays&, std::span<const Ray>, bool, RayAnswer*);
     PairCache<bool> coplanar_;
     StageCounts counts_;       // of coplanar()

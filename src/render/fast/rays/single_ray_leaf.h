@@ -140,8 +140,7 @@ HWY_INLINE LaneMask<float, N> front_only(const Slot* slots) {
 /// more of the terms, which the ninth e covers (9 instead of 8.5; 4 u M^2 < 0.02 e M).
 template <std::size_t N>
 HWY_INLINE LeafHits<N> test_triangles(const RayAtLeaf& ray, const std::uint16_t* corners,
-                                      std::size_t stride, const LaneMask<float, N>& front,
-                                      float scale) {
+                                      std::size_t stride, const LaneMask<float, N>& front) {
     using LeafFloats = Lanes<float, N>;
     using LeafMask = LaneMask<float, N>;
     const LeafVector a = load_corner<N>(corners, stride, 0, ray);
@@ -155,7 +154,7 @@ HWY_INLINE LeafHits<N> test_triangles(const RayAtLeaf& ray, const std::uint16_t*
     const LeafFloats w = dot(a, cross(d, b));
     constexpr float kEdge =
         4 * kCorner * kReach + 2 * kCorner * kCorner + roundings(18) * kReach * kReach;
-    const LeafFloats edge_error(scale * kEdge * (1 + roundings(8)) * ray.step_sum);
+    const LeafFloats edge_error(kEdge * (1 + roundings(8)) * ray.step_sum);
     const LeafFloats least = min(u, min(v, w));
     const LeafFloats most = max(u, max(v, w));
     const LeafMask inside = (least > edge_error) | without(most < -edge_error, front);
@@ -166,8 +165,8 @@ HWY_INLINE LeafHits<N> test_triangles(const RayAtLeaf& ray, const std::uint16_t*
     const LeafFloats height = dot(n, a);
     const LeafFloats slope = dot(n, d);
     const LeafFloats k =
-        (max(max_norm(e1), max_norm(e2)) + LeafFloats(kCorner)) * LeafFloats(scale * 9 * kCorner);
-    const LeafFloats height_error = mul_add(k, norm1(a), norm1(n) * LeafFloats(scale * kCorner));
+        (max(max_norm(e1), max_norm(e2)) + LeafFloats(kCorner)) * LeafFloats(9 * kCorner);
+    const LeafFloats height_error = mul_add(k, norm1(a), norm1(n) * LeafFloats(kCorner));
     const LeafFloats slope_error = k * LeafFloats(ray.step_sum);
     const LeafFloats inverse = LeafFloats(1.0F) / slope;
     const LeafFloats along = height * inverse;
@@ -196,8 +195,7 @@ HWY_INLINE LeafHits<N> test_triangles(const RayAtLeaf& ray, const std::uint16_t*
 /// by 2 |l| that + that^2.
 template <std::size_t N>
 HWY_INLINE LeafHits<N> test_spheres(const RayAtLeaf& ray, const float* values, std::size_t stride,
-                                    std::uint32_t count, const LaneMask<float, N>& front,
-                                    float scale) {
+                                    std::uint32_t count, const LaneMask<float, N>& front) {
     using LeafFloats = Lanes<float, N>;
     using LeafMask = LaneMask<float, N>;
     // What stands behind a leaf is not to be taken for a float: it may be a slow, subnormal one.
@@ -215,11 +213,11 @@ HWY_INLINE LeafHits<N> test_spheres(const RayAtLeaf& ray, const float* values, s
                              mul_add(middle, d.z, f.z)};
     const LeafFloats across = dot(l, l);
     const LeafFloats depth = mul_add(r, r, -across);
-    const LeafFloats error = mul_add(norm1(f), LeafFloats(scale * roundings(32)),
-                                     LeafFloats(scale * (roundings(8) + ray.point_error)));
+    const LeafFloats error =
+        mul_add(norm1(f), LeafFloats(roundings(32)), LeafFloats((roundings(8) + ray.point_error)));
     const LeafFloats depth_error =
         mul_add(mul_add(norm1(l), LeafFloats(2.0F), error * LeafFloats(3.0F)), error,
-                mul_add(r, r, across) * LeafFloats(scale * roundings(16)));
+                mul_add(r, r, across) * LeafFloats(roundings(16)));
     const LeafMask meets = depth > depth_error;
     const LeafMask misses = depth < -depth_error;
     const LeafFloats half = sqrt(max(depth, LeafFloats(0.0F)) * inverse);
@@ -233,7 +231,7 @@ HWY_INLINE LeafHits<N> test_spheres(const RayAtLeaf& ray, const float* values, s
         half * LeafFloats(roundings(8));
     const LeafFloats slack =
         half_error + error +
-        (abs(middle) + LeafFloats(ray.entry) + half) * LeafFloats(scale * roundings(8));
+        (abs(middle) + LeafFloats(ray.entry) + half) * LeafFloats(roundings(8));
     const LeafFloats near = LeafFloats(ray.entry) + (middle - half);
     const LeafFloats far = LeafFloats(ray.entry) + (middle + half);
     const LeafFloats behind(ray.behind);

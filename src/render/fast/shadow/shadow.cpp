@@ -15,7 +15,7 @@
 #include "fast/tile/beam.h"
 
 // One light, one tile: points are looked up in the light's buffer; those that cannot be go through
-// the octree, the points of a block as one beam.
+// the octree, the points of a block as one beam. Where lists are long the octree is asked first.
 
 HWY_BEFORE_NAMESPACE();
 namespace nuvo::HWY_NAMESPACE {

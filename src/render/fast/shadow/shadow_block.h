@@ -14,9 +14,9 @@
 #include "fast/simd/lanes.h"
 #include "fast/tile/tile.h"
 
-// The points of a block and what hides them. A shadow ray is blocked as soon as
-// one item surely blocks it; what floats leave open is put aside for the fallback, who is asked
-// only about points that nothing blocked surely.
+// The points of a block and what hides them. A shadow ray is blocked as soon as one item surely
+// blocks it; what floats leave open is put aside for the fallback, who is asked only about points
+// that nothing blocked surely.
 
 HWY_BEFORE_NAMESPACE();
 namespace nuvo::HWY_NAMESPACE {
@@ -83,7 +83,7 @@ class ShadowBlock {
 
     HWY_INLINE void test_triangle(const ShadowContext& context, const ShadowPlanes& planes,
                                   Slot slot, std::uint32_t lanes) {
-        const Floats depth = hidden(planes, points_);
+        const Floats depth = shadow_depth(planes, points_);
         block((depth > plane_error_).bits());
         // It does not hide its own points. All signs before the one branch: each alone is a guess.
         const std::uint32_t open = waiting_ & lanes & ~((depth < -plane_error_).bits() | own(slot));
@@ -102,7 +102,7 @@ class ShadowBlock {
             if (pair == PairShadow::kOpen) continue;
             lanes &= ~same;
             if (pair == PairShadow::kNone) continue;
-            const Floats depth = hidden_past(edge_of(pair), planes, points_);
+            const Floats depth = shadow_depth_past(edge_of(pair), planes, points_);
             block(same & (depth > plane_error_).bits());
             lanes |= same & waiting_ & ~(depth < -plane_error_).bits();
         }
@@ -115,7 +115,7 @@ class ShadowBlock {
 
     HWY_INLINE void test_quadric(const ShadowContext& context, Slot slot, std::uint32_t lanes) {
         const QuadricItem item(context.job.tables, context.table, slot);
-        if (item.side == LightSide::kBlind) return;
+        if (item.side == LightSide::kNoShadow) return;
         const Floats error =
             (quadric_error_ + Floats(kQuadricError * size_of(item.shape))) * Floats(kRounded);
         const QuadricTest test(item, points_, shadow_rays_, error);

@@ -20,12 +20,12 @@ HWY_INLINE Floats plane_at(const float (&n)[4], const Points& p) {
                    mul_add(p.y, Floats(n[1]), mul_add(p.z, Floats(n[2]), Floats(n[3]))));
 }
 /// The least of the four functions of `t` at the points.
-HWY_INLINE Floats hidden(const ShadowPlanes& t, const Points& p) {
+HWY_INLINE Floats shadow_depth(const ShadowPlanes& t, const Points& p) {
     return min(min(plane_at(t.plane[0], p), plane_at(t.plane[1], p)),
                min(plane_at(t.plane[2], p), plane_at(t.plane[3], p)));
 }
 /// The least of those but the plane through one edge.
-HWY_INLINE Floats hidden_past(int edge, const ShadowPlanes& t, const Points& p) {
+HWY_INLINE Floats shadow_depth_past(int edge, const ShadowPlanes& t, const Points& p) {
     return min(min(plane_at(t.plane[(edge + 1) % 3], p), plane_at(t.plane[(edge + 2) % 3], p)),
                plane_at(t.plane[3], p));
 }

@@ -177,7 +177,7 @@ void ShadowTables::forget_outside(ShadowTable& table) {
 
 LightSide ShadowTables::side(const LightPoint& light, const LocalSphere& shape,
                              const Object& object) const {
-    if (!object.casts_shadow) return LightSide::kBlind;
+    if (!object.casts_shadow) return LightSide::kNoShadow;
     if (!light.finite) return LightSide::kUnknown;
     const Vector3 from(shape.center);
     const double distance = length(from * light.weight - light.toward);
@@ -187,7 +187,7 @@ LightSide ShadowTables::side(const LightPoint& light, const LocalSphere& shape,
     if (distance > radius + margin) return LightSide::kOutside;
     if (!(distance < radius - margin)) return LightSide::kUnknown;
     const bool blind = scene_.front_only(object) && std::holds_alternative<Sphere>(object.shape);
-    return blind ? LightSide::kBlind : LightSide::kInside;
+    return blind ? LightSide::kNoShadow : LightSide::kInside;
 }
 
 bool ShadowTables::complete() const {
