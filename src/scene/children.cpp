@@ -9,15 +9,17 @@ namespace nuvo::x3d {
 
 namespace {
 
-bool is_node_to_draw(const Element& child) {
+/// Metadata, declarations and statements stand among the children, but are none.
+bool is_content(const Element& child) {
     return !is_silent(child.name) && child.name != "ROUTE" && child.name != "IMPORT";
 }
 
-std::size_t count_drawn(const Element& parent) {
-    std::size_t count = 0;
-    for (const Element& child : parent.children)
-        if (is_node_to_draw(child)) ++count;
-    return count;
+/// What a Switch or an LOD counts. A WorldInfo is an X3DChildNode, though nothing of it is drawn.
+bool is_child_node(const Element& child) { return child.name == "WorldInfo" || is_content(child); }
+
+std::size_t count_children(const Element& parent) {
+    return static_cast<std::size_t>(
+        std::count_if(parent.children.begin(), parent.children.end(), is_child_node));
 }
 
 /// The viewer's distance from `center` in the units of the placement; a placement without a volume
@@ -44,15 +46,15 @@ std::vector<bool> drawn_layers(const Element& node, const Fields& fields) {
     std::vector<bool> drawn;
     std::int32_t layer = 0;
     for (const Element& child : node.children) {
-        if (is_node_to_draw(child)) ++layer;
+        if (is_content(child)) ++layer;
         drawn.push_back(std::find(order.begin(), order.end(), layer) != order.end());
     }
     return drawn;
 }
 
-const Element* drawn_child(const Element& parent, std::size_t number) {
+const Element* child_at(const Element& parent, std::size_t number) {
     for (const Element& child : parent.children)
-        if (is_node_to_draw(child) && number-- == 0) return &child;
+        if (is_child_node(child) && number-- == 0) return &child;
     return nullptr;
 }
 
@@ -60,12 +62,12 @@ const Element* chosen_child(const Element& node, const Fields& fields) {
     const Integers choice = fields.integers("whichChoice");
     if (choice.size() > 1) fields.reject("whichChoice", "is more than one number");
     if (choice.size() != 1 || choice[0] < 0) return nullptr;
-    return drawn_child(node, static_cast<std::size_t>(choice[0]));
+    return child_at(node, static_cast<std::size_t>(choice[0]));
 }
 
 const Element* chosen_level(const Element& node, const Fields& fields, const Placement& placement,
                             const Point3& viewer) {
-    const std::size_t levels = count_drawn(node);
+    const std::size_t levels = count_children(node);
     if (levels == 0) return nullptr;
     const double distance = local_distance(placement, fields.vector("center", {}), viewer);
     std::size_t level = 0;
@@ -73,7 +75,7 @@ const Element* chosen_level(const Element& node, const Fields& fields, const Pla
         if (distance < range) break;
         ++level;
     }
-    return drawn_child(node, level < levels ? level : levels - 1);
+    return child_at(node, level < levels ? level : levels - 1);
 }
 
 std::size_t count_shapes(const Element& element, const Documents& documents) {

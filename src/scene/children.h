@@ -15,9 +15,9 @@ bool is_proxy(const Element& child);
 /// For each child of a LayerSet whether it is drawn: its `order` names it, counting from 1.
 std::vector<bool> drawn_layers(const Element& node, const Fields& fields);
 
-/// The child of that number among those that are nodes to draw (no metadata, declarations or
-/// routes); null where there are fewer.
-const Element* drawn_child(const Element& parent, std::size_t number);
+/// The child node of that number, from 0; metadata, declarations and routes are none. Null where
+/// there are fewer.
+const Element* child_at(const Element& parent, std::size_t number);
 
 /// The one child that a Switch draws; null: none.
 const Element* chosen_child(const Element& node, const Fields& fields);

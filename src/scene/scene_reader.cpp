@@ -157,7 +157,7 @@ void SceneReader::read_level_of_detail(const Element& node, Group& group) {
     const Fields fields(node, messages_);
     // A camera inside an LOD would have to be known before it is: it counts in the first level.
     const Element* level =
-        looking_for_camera_ ? drawn_child(node, 0)
+        looking_for_camera_ ? child_at(node, 0)
                             : chosen_level(node, fields, group.placement, scene_.camera.position);
     read_only(level, node, group.placement);
 }

@@ -38,6 +38,19 @@ TEST(LoaderSwitch, DrawsTheChosenChildOnly) {
               "scene.x3d: Scene/Switch@whichChoice: \"one\" is not an integer (line 1)");
 }
 
+// 19775-1, 9.4.3: WorldInfo is an X3DInfoNode, so an X3DChildNode; metadata is no child.
+TEST(LoaderSwitch, AWorldInfoIsAChild) {
+    const std::string children = "><MetadataString/><WorldInfo/>" + ball(1) + ball(2);
+    EXPECT_EQ(drawn("<Switch whichChoice='0'" + children + "</Switch>"), Radii{});
+    EXPECT_EQ(drawn("<Switch whichChoice='1'" + children + "</Switch>"), Radii{1});
+    EXPECT_EQ(drawn("<LOD range='20'" + children + "</LOD>"), Radii{});
+    EXPECT_EQ(drawn("<LOD range='5'" + children + "</LOD>"), Radii{1});
+    EXPECT_EQ(drawn("<LOD range='5 6'" + children + "</LOD>"), Radii{2});
+    // The layers of a LayerSet are X3DLayerNodes, which it is none of.
+    EXPECT_EQ(drawn("<LayerSet order='1'><WorldInfo/><Layer>" + ball(3) + "</Layer></LayerSet>"),
+              Radii{3});
+}
+
 TEST(LoaderSwitch, ShapesNotChosenKeepTheirNumbers) {
     const Scene scene = load(bare(ball(7) + switch_of("whichChoice='2'") + ball(8)));
     ASSERT_EQ(scene.objects.size(), 3u);
