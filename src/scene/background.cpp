@@ -27,15 +27,19 @@ Color gradient(const std::vector<Color>& colors, const std::vector<double>& angl
 }  // namespace
 
 Color Background::color(const Vector3& direction) const {
-    const double y = std::clamp(direction.y, -1.0, 1.0);
+    const double y = std::clamp(dot(direction, zenith), -1.0, 1.0);
     if (sky_color.size() == 1 && ground_color.size() == 1 && sky_angle.empty() &&
         ground_angle.empty())
         return sky_color[0] * ((y + 1) / 2) + ground_color[0] * ((1 - y) / 2);  // [eq. 36]
     // Of an arc cosine narrow bands around the poles would come out in steps.
-    const double across = std::sqrt(direction.x * direction.x + direction.z * direction.z);
-    // The ground is a hemisphere laid over the sky.
-    if (!ground_color.empty() && y <= 0)
-        return gradient(ground_color, ground_angle, std::atan2(across, -y));
+    const Vector3 sideways = cross(direction, zenith);
+    const double across = std::sqrt(dot(sideways, sideways));
+    // The ground is a part of a sphere within the sky's, from the nadir to its last angle.
+    if (!ground_color.empty() && y <= 0) {
+        const double angle = std::atan2(across, -y);
+        if (ground_angle.empty() || angle <= ground_angle.back())
+            return gradient(ground_color, ground_angle, angle);
+    }
     if (sky_color.empty()) return {};
     if (sky_color.size() == 1) return sky_color[0];
     return gradient(sky_color, sky_angle, std::atan2(across, y));

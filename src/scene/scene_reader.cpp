@@ -125,7 +125,7 @@ void SceneReader::read_node(NodeKind kind, const Element& node, Group& group) {
         case NodeKind::kViewpoint:
             return read_viewpoint_node(node, group);
         case NodeKind::kBackground:
-            return read_background_node(node);
+            return read_background_node(node, group);
         case NodeKind::kNavigationInfo:
             return read_navigation_info(node);
     }
@@ -282,10 +282,10 @@ void SceneReader::read_viewpoint_node(const Element& node, Group& group) {
     scene_.camera_given = true;
 }
 
-void SceneReader::read_background_node(const Element& node) {
+void SceneReader::read_background_node(const Element& node, const Group& group) {
     if (has_background_ || inline_depth_ > 0) return;
     has_background_ = true;
-    scene_.background = read_background(Fields(node, messages_));
+    scene_.background = read_background(Fields(node, messages_), group.placement);
 }
 
 void SceneReader::read_navigation_info(const Element& node) {

@@ -50,7 +50,7 @@ class SceneReader {
     // The leaves.
     void read_shape(const Element& node, Group& group);
     void read_viewpoint_node(const Element& node, Group& group);
-    void read_background_node(const Element& node);
+    void read_background_node(const Element& node, const Group& group);
     void read_navigation_info(const Element& node);
 
     void find_camera_first(const Element& scene);

@@ -90,7 +90,7 @@ bool is_wanted(const Element& node, std::size_t number, const std::string& wante
     return false;
 }
 
-Background read_background(const Fields& fields) {
+Background read_background(const Fields& fields, const Placement& placement) {
     Background background;
     if (fields.has("skyColor")) background.sky_color = fields.colors("skyColor");
     if (background.sky_color.empty()) background.sky_color = {{0, 0, 0}};
@@ -99,6 +99,7 @@ Background read_background(const Fields& fields) {
     background.ground_color = fields.colors("groundColor");
     const Numbers ground = fields.clamped_numbers("groundAngle", {0, std::numbers::pi / 2});
     background.ground_angle.assign(ground.begin(), ground.end());
+    background.zenith = normalized(placement.rotation * background.zenith);
     match(fields, "skyAngle", background.sky_color, background.sky_angle);
     match(fields, "groundAngle", background.ground_color, background.ground_angle);
     for (const char* picture :

@@ -21,7 +21,9 @@ std::string viewpoint_name(const Element& node, std::size_t number);
 /// True where `wanted` is the Viewpoint's DEF, description or number (from 1), or empty.
 bool is_wanted(const Element& node, std::size_t number, const std::string& wanted);
 
-/// Reads a Background. Too few or too many angles for the colours are put right with a warning.
-Background read_background(const Fields& fields);
+/// Reads a Background or the colours of a TextureBackground, which their ancestors turn but neither
+/// move nor scale (ISO/IEC 19775-1, 24.4.1). Too few or too many angles for the colours are put
+/// right with a warning.
+Background read_background(const Fields& fields, const Placement& placement);
 
 }  // namespace nuvo::x3d

@@ -90,6 +90,7 @@ class BackgroundMaker {
                 b.ground_angle = {uniform(random_, 0.2, 1.4)};
             }
         }
+        if (random_() % 2 != 0) b.zenith = normalized(uniform_point(random_, 1));
         return scene;
     }
 

@@ -199,6 +199,16 @@ TEST(FastShading, ShowsGradientsOfSkyAndGroundExactly) {
     expect_exact(scene_of("<Viewpoint position='0 0 10' orientation='1 0 1 1.4' fieldOfView='2'/>"
                           "<Background skyColor='0 0 1 1 0.5 0 1 1 1' skyAngle='0.2 0.2'/>"),
                  "a step in the sky");
+    const std::string view =
+        "<Viewpoint position='0 0 10' orientation='1 0 0 -0.6' fieldOfView='2'/>";
+    const std::string sky = "<Background skyColor='0 0 1 1 0.5 0 1 1 1' skyAngle='0.9 2.6' ";
+    expect_exact(scene_of(view + sky + "groundColor='0 1 0 1 0 1' groundAngle='0.7'/>"),
+                 "sky between the ground and the horizon");
+    for (const std::string& fields :
+         {std::string("<Background skyColor='0.9 0.7 0.9' groundColor='0.4 0.5 0.7'/>"),
+          sky + "groundColor='0 1 0'/>", sky + "groundColor='0 1 0 1 0 1' groundAngle='1.2'/>"})
+        expect_exact(scene_of(view + "<Transform rotation='2 1 -1 2.2'>" + fields + "</Transform>"),
+                     "a background that lies on its side: " + fields);
 }
 
 // 0.1, 0.3, 0.5 are halfway between two bytes: ties go up.

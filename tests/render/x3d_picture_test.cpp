@@ -203,6 +203,17 @@ TEST(X3dPicture, ABackgroundOfBandsIsLinearInTheAngle) {
     const double up = std::atan2(4.05, std::hypot(10, 0.05));  // above the horizon
     EXPECT_NEAR(picture.at(0.05, 4.05).r, 255 * up / 1.5707963267948966, 1);
     EXPECT_EQ(picture.at(0.05, -1.05), (Rgb8{0, 255, 0}));
+    // No ground beyond its last angle, here two thirds of the way from the nadir to the horizon; a
+    // rotation by pi about x exchanges zenith and nadir.
+    const std::string fields =
+        "<Background skyColor='1 0 0 0 0 1' skyAngle='3.141592653589793' groundColor='0 1 0 0 1 0' "
+        "groundAngle='1.0471975511965976'/>";
+    EXPECT_NEAR(Picture(fields).at(0.05, -4.05).b, 255 * (0.5 + up / 3.141592653589793), 1);
+    EXPECT_EQ(Picture(fields).at(0.05, -4.05).g, 0);
+    EXPECT_NEAR(Picture("<Transform rotation='1 0 0 3.141592653589793'>" + fields + "</Transform>")
+                    .at(0.05, -4.05)
+                    .r,
+                255 * (0.5 + up / 3.141592653589793), 1);
 }
 
 }  // namespace

@@ -45,11 +45,35 @@ TEST(Background, SkyBandsAreLinearInTheAngleFromTheZenith) {
 }
 
 TEST(Background, TheGroundOverlaysTheLowerHalfOfTheSky) {
-    const Background background{{kRed, kGreen}, {3.0}, {kBlue, kRed}, {1}};
+    const Background background{{kRed, kGreen}, {3.0}, {kBlue, kRed}, {M_PI / 2}};
     expect_color(background.color({0, -1, 0}), kBlue);
-    expect_color(background.color(from_zenith(M_PI - 0.5)), {0.5, 0, 0.5});
-    expect_color(background.color(from_zenith(M_PI - 1.5)), kRed);  // to the horizon
+    expect_color(background.color(from_zenith(M_PI * 3 / 4)), {0.5, 0, 0.5});
+    expect_color(background.color({1, 0, 0}), kRed);  // to the horizon
     expect_color(background.color(from_zenith(1.5)), {0.5, 0.5, 0});
+}
+
+// 19775-1, 24.2.1: "If the last groundAngle is less than pi/2, the region between the last
+// groundAngle and the equator is non-existent."
+TEST(Background, TheSkyGoesOnBelowTheHorizonWhereTheGroundEnds) {
+    const Background background{{kRed, kGreen}, {3.0}, {kBlue, kRed}, {1}};
+    expect_color(background.color(from_zenith(M_PI - 0.5)), {0.5, 0, 0.5});
+    expect_color(background.color(from_zenith(M_PI - 0.999)), {0.999, 0, 0.001});
+    expect_color(background.color(from_zenith(2)), {1 / 3., 2 / 3., 0});
+    const Background plain{{kRed}, {}, {kBlue, kBlue}, {1}};
+    EXPECT_EQ(plain.color(from_zenith(M_PI - 0.9)), kBlue);
+    EXPECT_EQ(plain.color(from_zenith(M_PI - 1.1)), kRed);
+}
+
+TEST(Background, ItsZenithMayLieAnywhere) {
+    Background background{{kRed, kGreen, kBlue}, {1, 2}, {}, {}};
+    background.zenith = {0, 0, -1};
+    expect_color(background.color({0, 0, -1}), kRed);
+    expect_color(background.color({0, std::sin(0.25), -std::cos(0.25)}), {0.75, 0.25, 0});
+    expect_color(background.color({0, 0, 1}), kBlue);
+    Background blend{{kRed}, {}, {kBlue}, {}};
+    blend.zenith = {1, 0, 0};
+    expect_color(blend.color({0, 1, 0}), {0.5, 0, 0.5});
+    expect_color(blend.color({1, 0, 0}), kRed);
 }
 
 TEST(Background, OneGroundColorBelowASkyOfBandsFillsTheLowerHalf) {

@@ -211,6 +211,21 @@ TEST(LoaderView, ReadsTheFirstBackground) {
     EXPECT_EQ(background.ground_angle, std::vector<double>{1.5});
 }
 
+// 19775-1, 24.4.1: translations and scales of its ancestors have no effect, rotations have.
+TEST(LoaderView, BackgroundsAreTurnedByTheirAncestors) {
+    const auto zenith = [](const std::string& outer, const std::string& inner) {
+        const Scene scene = load(bare("<Transform " + outer + "><Transform " + inner +
+                                      "><Background/></Transform></Transform>"));
+        EXPECT_TRUE(scene.warnings.empty());
+        return scene.background.zenith;
+    };
+    const std::string quarter = " 1.5707963267948966'";
+    EXPECT_EQ(zenith("translation='1 2 3'", "scale='1 -2 0' center='1 1 1'"), (Vector3{0, 1, 0}));
+    expect_near(zenith("scale='1 5 1'", "rotation='1 0 0" + quarter), {0, 0, 1});
+    // The inner one first: about z to -1 0 0, and from there about y.
+    expect_near(zenith("rotation='0 1 0" + quarter, "rotation='0 0 1" + quarter), {0, 0, 1});
+}
+
 TEST(LoaderView, BackgroundAnglesAreMadeToFitTheirColors) {
     const Scene scene =
         load(bare("<Background skyColor='1 0 0 0 1 0 0 0 1' skyAngle='2 1 3 9' "

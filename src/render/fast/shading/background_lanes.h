@@ -31,9 +31,9 @@ struct PixelColors {
     }
 };
 
-/// The sine of the rays' height, d_y / |d|, within ShadingRays::sine_error.
+/// The sine of the rays' height, d.z / |d| for the zenith z, within ShadingRays::sine_error.
 HWY_INLINE Floats sine_of_height(const BlockDirections& directions) {
-    return directions.at(1) * inverse_sqrt(directions.square());
+    return directions.height() * inverse_sqrt(directions.square());
 }
 
 /// The colors of one list of bands, `angle` from its pole within `angle_error`. A lane whose bounds
@@ -73,11 +73,14 @@ HWY_INLINE PixelColors gradient(const ShadingBackground& background, const Float
     const Floats from_zenith = (most + least) * Floats(0.5F);
     PixelColors out = banded(background.sky, from_zenith, half);
     if (!background.has_ground) return out;
-    const PixelColors ground =
-        banded(background.ground, Floats(kPi) - from_zenith, half + Floats(roundings(8)));
-    out.take(y < Floats(0.0F), ground);
-    out.error = select(abs(y) > error, out.error,
-                       Floats(std::numeric_limits<float>::infinity()));  // the horizon
+    const Floats from_nadir = Floats(kPi) - from_zenith;
+    const Floats margin_of_ground = half + Floats(roundings(8));
+    const Floats end(background.ground_end);
+    const RayMask may_be_ground = (y < Floats(0.0F)) & (from_nadir - margin_of_ground <= end);
+    out.take(may_be_ground, banded(background.ground, from_nadir, margin_of_ground));
+    const RayMask known =  // not at the horizon, nor where the ground ends
+        without(abs(y) > error, may_be_ground & (from_nadir + margin_of_ground > end));
+    out.error = select(known, out.error, Floats(std::numeric_limits<float>::infinity()));
     return out;
 }
 

@@ -25,6 +25,11 @@ class BlockDirections {
         return Floats::load_repeated(rays_.column[axis].data() + x_) +
                Floats::load(rays_.row[axis].data() + y_);
     }
+    /// d.z for the background's zenith z.
+    HWY_INLINE Floats height() const {
+        return Floats::load_repeated(rays_.column_height.data() + x_) +
+               Floats::load(rays_.row_height.data() + y_);
+    }
     /// d.d
     HWY_INLINE Floats square() const {
         return Floats::load_repeated(rays_.column_square.data() + x_) +

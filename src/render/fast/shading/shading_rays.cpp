@@ -21,7 +21,7 @@ double largest_step(const std::vector<float>& parts) {
 
 }  // namespace
 
-ShadingRays::ShadingRays(const CameraRays& camera) {
+ShadingRays::ShadingRays(const CameraRays& camera, const Vector3& zenith) {
     const Resolution size = camera.resolution;
     const std::size_t width = whole_tiles(size.width);
     const std::size_t height = whole_tiles(size.height);
@@ -29,17 +29,21 @@ ShadingRays::ShadingRays(const CameraRays& camera) {
         column[axis].resize(width);
         row[axis].resize(height * kBlockSide);
     }
+    column_height.resize(width);
+    row_height.resize(height * kBlockSide);
     column_square.resize(width);
     row_square.resize(height * kBlockSide);
     for (std::size_t x = 0; x < width; ++x) {
         const Vector3 part = camera.right * camera.center_x(static_cast<int>(x));
         for (int axis = 0; axis < 3; ++axis) column[axis][x] = static_cast<float>(part[axis]);
+        column_height[x] = static_cast<float>(dot(part, zenith));
         column_square[x] = static_cast<float>(dot(part, part));
     }
     for (std::size_t i = 0; i < height * kBlockSide; ++i) {
         const Vector3 part =
             camera.forward + camera.down * camera.center_y(static_cast<int>(i / kBlockSide));
         for (int axis = 0; axis < 3; ++axis) row[axis][i] = static_cast<float>(part[axis]);
+        row_height[i] = static_cast<float>(dot(part, zenith));
         row_square[i] = static_cast<float>(dot(part, part));
     }
 
@@ -50,10 +54,10 @@ ShadingRays::ShadingRays(const CameraRays& camera) {
     longest = rounded_up(kSlack * std::sqrt(across * across + along * along));
     error = rounded_up(roundings(1) * (across + along + static_cast<double>(longest)));
     relative = roundings(std::sqrt(2.0) + 1);
-    // d_y: roundings of its parts and their sum, |d| >= 1; then of y = d_y / |d| the roundings of
+    // d.z: roundings of its parts and their sum, |d| >= 1; then of y = d.z / |d| the roundings of
     // the parts of |d|^2 and of their sum by half (1), the root's and the product's. And what
     // the axes lack of being perpendicular.
-    const double parts = largest_step(column[1]) + largest_step(row[1]);
+    const double parts = largest_step(column_height) + largest_step(row_height);
     const double y = std::min(1.0, parts);
     const double skew = std::fabs(dot(camera.right, camera.forward)) * 0.5 * size.width +
                         std::fabs(dot(camera.right, camera.down)) * 0.25 * size.width * size.height;
@@ -61,7 +65,8 @@ ShadingRays::ShadingRays(const CameraRays& camera) {
 }
 
 std::size_t ShadingRays::memory_bytes() const {
-    std::size_t bytes = vector_bytes(column_square) + vector_bytes(row_square);
+    std::size_t bytes = vector_bytes(column_height) + vector_bytes(row_height) +
+                        vector_bytes(column_square) + vector_bytes(row_square);
     for (int axis = 0; axis < 3; ++axis)
         bytes += vector_bytes(column[axis]) + vector_bytes(row[axis]);
     return bytes;

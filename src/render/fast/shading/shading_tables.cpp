@@ -342,6 +342,8 @@ void add_background(ShadingTables& tables) {
         out.sky = bands(exact.sky_color, exact.sky_angle);
         if (out.sky.empty()) out.sky = bands({Color{}}, {});
         out.ground = bands(exact.ground_color, exact.ground_angle);
+        out.ground_end =
+            rounded(exact.ground_angle.empty() ? kInfinity : exact.ground_angle.back());
     }
 }
 
@@ -359,7 +361,11 @@ SurfaceWord ShadingTables::word_of(const Object& object) const {
 ShadingTables::ShadingTables(const FastScene& scene_in, const CameraRays& camera_in,
                              const CameraTables& quadrics_in, InstructionSet isa_in,
                              std::optional<ShadingTriangles> kept)
-    : scene(scene_in), camera(camera_in), isa(isa_in), quadrics(quadrics_in), rays(camera_in) {
+    : scene(scene_in),
+      camera(camera_in),
+      isa(isa_in),
+      quadrics(quadrics_in),
+      rays(camera_in, scene_in.scene().background.zenith) {
     bound_points(*this);
     add_materials(*this);
     add_mesh_flags(*this);

@@ -143,6 +143,7 @@ struct ShadingBackground {
     float error = 0;        ///< bounds the errors in units of a byte
     bool in_range = false;  ///< colors surely stay below 255 and a half, and above -1 / 2
     bool has_ground = false;
+    float ground_end = 0;             ///< the angle from the nadir beyond which the sky shows
     std::vector<BackgroundBand> sky;  ///< never empty for a gradient; the last has no end
     std::vector<BackgroundBand> ground;
 };
