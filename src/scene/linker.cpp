@@ -21,7 +21,7 @@ bool has_definition(const Element& root, std::string_view name) {
 }  // namespace
 
 void Linker::run() {
-    scopes_.push_back({{nullptr, nullptr, &document_}, {}, {}, {}});
+    scopes_.push_back({{nullptr, nullptr, &document_}, {}, {}, {}, {}});
     enter(*document_.root, false, false);
     while (!path_.empty()) {
         Visit& top = path_.back();
@@ -50,7 +50,7 @@ void Linker::enter(Element& element, bool is_script, bool begins_scope) {
                          "prototypes make the scene exceed the limit of " +
                              std::to_string(limits.depth) + " nested levels");
     const std::string_view def = element.text("DEF");
-    if (!def.empty()) scope().definitions[def] = &element;
+    if (!def.empty()) define(def, element);
     const Document& document = *scope().prototype.document;
     if (document.units.angle != 1) convert_angles(element, document.units.angle, document_.arena);
     is_script = is_script || element.name == "Script";
@@ -66,37 +66,53 @@ void Linker::leave() {
     path_.pop_back();
 }
 
+void Linker::define(std::string_view name, const Element& element) {
+    const auto [entry, is_new] = scope().definitions.try_emplace(name, &element);
+    if (is_new) return;
+    const Element* before = std::exchange(entry->second, &element);
+    if (before->name != element.name) scope().other_kinds[{name, before->name}] = before;
+}
+
+const Element* Linker::find_definition(const Scope& scope, const Element& use) {
+    const std::string_view name = use.text("USE");
+    const auto latest = scope.definitions.find(name);
+    if (latest == scope.definitions.end()) return nullptr;
+    const std::string_view kind = latest->second->name;
+    if (kind == use.name || kind == "ProtoInstance") return latest->second;
+    const auto other = scope.other_kinds.find({name, use.name});
+    return other != scope.other_kinds.end() ? other->second : latest->second;
+}
+
 void Linker::resolve(Element& element, bool is_script) {
     const std::string_view name = element.text("USE");
-    const auto found = scope().definitions.find(name);
+    const Element* found = find_definition(scope(), element);
     const std::string shown = "USE=\"" + excerpt(name) + "\"";
     if (messages_.is_strict()) {
-        if (found == scope().definitions.end())
+        if (found == nullptr)
             messages_.refuse(
                 element, "",
                 shown + (has_definition(*document_.root, name) ? " comes before its DEF"
                                                                : " names no DEF"));
-        if (found->second->name != element.name)
-            messages_.refuse(element, "",
-                             shown + " is a " + excerpt(found->second->name) + ", not a " +
-                                 excerpt(element.name));
+        if (found->name != element.name)
+            messages_.refuse(
+                element, "",
+                shown + " is a " + excerpt(found->name) + ", not a " + excerpt(element.name));
     }
-    if (found == scope().definitions.end()) {
+    if (found == nullptr) {
         element.target = &kNothing;
         if (!is_script) scope().unresolved.push_back(&element);
         return;
     }
-    element.target = found->second;
-    if (found->second->name != element.name && !is_script && found->second->name != "ProtoInstance")
+    element.target = found;
+    if (found->name != element.name && !is_script && found->name != "ProtoInstance")
         messages_.warn(excerpt(element.name) + "@USE",
                        "naming a node of another kind, which is drawn in its place", element);
 }
 
 void Linker::resolve_late(Scope& scope) {
     for (Element* element : scope.unresolved) {
-        const auto found = scope.definitions.find(element->text("USE"));
-        if (found != scope.definitions.end()) {
-            element->target = found->second;
+        if (const Element* found = find_definition(scope, *element); found != nullptr) {
+            element->target = found;
             messages_.warn(excerpt(element->name) + "@USE", "coming before its DEF", *element);
         } else {
             messages_.warn_left_out(
@@ -125,7 +141,7 @@ void Linker::expand(Visit& visit) {
     while (*end != nullptr) end = &(*end)->next;
     *end = made;
     instance.target = made;
-    Scope& inner = scopes_.emplace_back(Scope{prototype, {}, {}, {}});
+    Scope& inner = scopes_.emplace_back(Scope{prototype, {}, {}, {}, {}});
     declare_nested(*prototype.declaration, instance, inner);
     enter(*made, false, true);
 }

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <deque>
+#include <map>
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "documents.h"
@@ -14,7 +16,9 @@ namespace nuvo::x3d {
 /// The names that nodes of one file, or of the body of one prototype's instance, can refer to.
 struct Scope {
     Prototype prototype;  ///< that the body belongs to; `document` alone for a file
-    std::unordered_map<std::string_view, const Element*> definitions;   ///< the latest of a DEF
+    std::unordered_map<std::string_view, const Element*> definitions;  ///< the latest of a DEF
+    /// Of names that nodes of several kinds have, the latest of each kind before the latest.
+    std::map<std::pair<std::string_view, std::string_view>, const Element*> other_kinds;
     std::unordered_map<std::string_view, const Element*> declarations;  ///< of prototypes
     std::vector<Element*> unresolved;  ///< USEs whose DEF has not come yet
 };
@@ -45,6 +49,9 @@ class Linker {
     void declare_nested(const Element& declaration, const Element& instance, Scope& scope);
     void check_cycle(const Element& declaration, const Element& instance) const;
     void resolve_late(Scope& scope);
+    void define(std::string_view name, const Element& element);
+    /// The latest node of that name and of the USE's kind, else of that name; null: none so far.
+    static const Element* find_definition(const Scope& scope, const Element& use);
     Scope& scope() { return scopes_.back(); }
 
     Documents& documents_;

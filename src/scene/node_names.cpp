@@ -160,6 +160,24 @@ std::string_view missing_part(std::string_view name) {
     return {};
 }
 
+bool is_undrawn_geometry(std::string_view name) {
+    static const std::unordered_set<std::string_view> names{"Arc2D",
+                                                            "ArcClose2D",
+                                                            "Circle2D",
+                                                            "GeoElevationGrid",
+                                                            "IndexedLineSet",
+                                                            "LineSet",
+                                                            "NurbsPatchSurface",
+                                                            "NurbsSweptSurface",
+                                                            "NurbsSwungSurface",
+                                                            "NurbsTrimmedSurface",
+                                                            "PointSet",
+                                                            "Polyline2D",
+                                                            "Polypoint2D",
+                                                            "Text"};
+    return names.contains(name);
+}
+
 bool is_silent(std::string_view name) { return silent_names().contains(name); }
 
 std::string_view right_spelling(std::string_view name) {

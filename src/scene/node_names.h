@@ -36,6 +36,9 @@ inline bool is_drawable(NodeKind kind) {
     return kind >= NodeKind::kGroup && kind <= NodeKind::kShape;
 }
 
+/// True for geometry that is not drawn, as Text is: it takes its Shape's place for geometry.
+bool is_undrawn_geometry(std::string_view name);
+
 /// True for what is no drawable content and so needs no word when it is passed over: metadata,
 /// declarations, texture coordinates.
 bool is_silent(std::string_view name);

@@ -7,6 +7,15 @@
 
 namespace nuvo::x3d {
 
+namespace {
+
+/// True for what can be the geometry of a Shape.
+bool is_geometry(std::string_view kind) {
+    return kind == "Sphere" || is_mesh(kind) || is_undrawn_geometry(kind);
+}
+
+}  // namespace
+
 Scene SceneReader::read(const Document& document) {
     version_ = document.version;
     file_ = document.name;
@@ -194,12 +203,15 @@ void SceneReader::read_shape(const Element& node, Group& group) {
     for (const Element& child : node.children) {
         const std::string_view kind = child.kind();
         if (is_silent(kind)) continue;
-        if (kind == "Appearance" && appearance == nullptr)
-            appearance = &child.node();
-        else if (kind != "Appearance" && geometry == nullptr)
-            geometry = &child.node();
+        if (kind != "Appearance" && !is_geometry(kind)) {
+            warn_not_drawn(child, messages_);
+            continue;
+        }
+        const Element*& place = kind == "Appearance" ? appearance : geometry;
+        if (place == nullptr)
+            place = &child.node();
         else
-            messages_.warn(excerpt(kind), "beyond the first of its Shape left out", child);
+            messages_.warn(kind, "beyond the first of its Shape left out", child);
     }
     if (geometry != nullptr && appearance == nullptr) appearance = appearance_inside(*geometry);
     const std::optional<std::uint32_t> material = materials_.look_up(appearance);

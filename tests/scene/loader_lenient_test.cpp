@@ -151,6 +151,57 @@ TEST(LoaderLenient, UseOfAnotherKindDrawsWhatItNames) {
     EXPECT_EQ(scene.warnings.size(), 1u);
 }
 
+TEST(LoaderLenient, UseMeansTheLatestNodeOfItsKind) {
+    const auto material = [](const std::string& name, const std::string& color) {
+        return "<Material DEF='" + name + "' diffuseColor='" + color + "'/>";
+    };
+    const std::string nodes = "<Shape><Appearance DEF='a'>" + material("a", "1 0 0") +
+                              "</Appearance><Box/></Shape>"
+                              "<Shape><Appearance USE='a'/><Sphere/></Shape>"
+                              "<Shape><Appearance><Material USE='a'/></Appearance><Cone/></Shape>"
+                              "<Shape><Appearance DEF='a'>" +
+                              material("b", "0 1 0") +
+                              "</Appearance><Cylinder/></Shape>"
+                              "<Shape><Appearance USE='a'/><Disk2D/></Shape>"
+                              "<Shape><Appearance><Material USE='a'/></Appearance><Rectangle2D/>"
+                              "</Shape>";
+    const Scene scene = load(bare(nodes));
+    EXPECT_EQ(scene.warnings, Strings{});
+    EXPECT_EQ(refusal(bare(nodes)), "");
+    ASSERT_EQ(scene.objects.size(), 6u);
+    const Color red{1, 0, 0}, green{0, 1, 0};
+    const Color expected[] = {red, red, red, green, green, red};
+    for (std::size_t i = 0; i < 6; ++i)
+        EXPECT_EQ(scene.materials.at(scene.objects[i].material).diffuse_color, expected[i]) << i;
+}
+
+// 19775-1, 12.4.5: a Shape holds one Appearance and one X3DGeometryNode.
+TEST(LoaderLenient, WhatIsNoGeometryDoesNotTakeItsPlace) {
+    for (const char* stray : {"Material", "ImageTexture", "H3DExtension", "TouchSensor",
+                              "PointLight", "Coordinate", "Transform", "Shape", "Sound"}) {
+        const Scene scene =
+            load(bare("<Shape>\n<" + std::string(stray) +
+                      "/><Box/><Appearance><Material diffuseColor='1 0 0'/></Appearance></Shape>"));
+        ASSERT_EQ(scene.objects.size(), 1u) << stray;
+        EXPECT_EQ(scene.objects[0].shape_index, 0u) << stray;
+        EXPECT_EQ(scene.materials.at(scene.objects[0].material).diffuse_color, (Color{1, 0, 0}));
+        EXPECT_EQ(scene.warnings, Strings{std::string(stray) + ": 1 not drawn (first at Scene/" +
+                                          "Shape/" + stray + ", line 2)"})
+            << stray;
+    }
+    // A USE of another kind is no geometry, either; its own place is told.
+    const Scene scene =
+        load(bare("<Shape><Appearance><Material DEF='m'/></Appearance><Sphere/>"
+                  "</Shape><Shape>\n<Box USE='m'/><Cone/></Shape>"));
+    EXPECT_EQ(scene.objects.size(), 2u);
+    EXPECT_EQ(scene.warnings.at(1), "Material: 1 not drawn (first at Scene/Shape[2]/Box, line 2)");
+    // Text is geometry, though it is not drawn.
+    EXPECT_EQ(load(bare("<Shape><Text/><Box/></Shape>")).warnings,
+              (Strings{"Box: 1 beyond the first of its Shape left out (first at Scene/Shape/Box, "
+                       "line 1)",
+                       "Text: 1 not drawn (first at Scene/Shape/Text, line 1)"}));
+}
+
 TEST(LoaderLenient, ScriptsAndSensorsMayReferToAnything) {
     for (const char* field : {"<Group USE='nothing'/>", "<Transform USE='t'/>", "<Script USE='s'/>",
                               "<Shape USE='late'/>", "<Material USE='t'/>"}) {
