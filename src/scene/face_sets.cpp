@@ -1,5 +1,6 @@
 #include <numbers>
 
+#include "convexity.h"
 #include "mesh_source.h"
 #include "triangulation.h"
 
@@ -130,8 +131,8 @@ void cut_polygons(MeshSource& source, std::string_view field) {
     const std::size_t uncut = cut_concave(source.polygons, [&](std::size_t corners) {
         source.budget.take(corners * corners / kCornerPairs, source.fields);
     });
-    for (std::size_t i = 0; i < uncut; ++i)
-        source.fields.warn(field, "with a polygon that crosses itself drawn as a fan");
+    if (uncut > 0)
+        source.fields.warn(field, "with a polygon that crosses itself drawn as a fan", uncut);
 }
 
 void read_face_set(MeshSource& source) {
@@ -144,7 +145,14 @@ void read_face_set(MeshSource& source) {
     if (source.polygons.normals.values.empty() && normals.per_vertex) smooth(source, crease_angle);
     read_colors(source, {fields.boolean("colorPerVertex", true), fields.integers("colorIndex"),
                          &numbers.face, &numbers.entry});
-    if (!fields.boolean("convex", true)) cut_polygons(source, "coordIndex");
+    if (!fields.boolean("convex", true))
+        cut_polygons(source, "coordIndex");
+    else if (const std::size_t concave = count_concave(source.polygons, fields.threads());
+             concave > 0)
+        fields.warn("coordIndex",
+                    "with a face that is not convex, which is undefined without convex='false', "
+                    "drawn as a fan",
+                    concave);
 }
 
 void read_triangle_set(MeshSource& source) {

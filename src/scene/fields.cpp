@@ -139,8 +139,8 @@ std::string_view next_word(std::string_view& text) {
 
 NumberVerdict read_number(std::string_view word, double& value) { return read(word, value); }
 
-void Fields::warn(std::string_view name, const std::string& what) const {
-    messages_.warn(std::string(element_.name) + "@" + std::string(name), what, element_);
+void Fields::warn(std::string_view name, const std::string& what, std::size_t count) const {
+    messages_.warn(std::string(element_.name) + "@" + std::string(name), what, element_, count);
 }
 
 const std::string_view* Fields::given(std::string_view name) const {

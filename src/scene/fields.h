@@ -93,8 +93,8 @@ class Fields {
     void reject(std::string_view name, const std::string& reason) const {
         messages_.warn_field_left_out(element_, name, reason);
     }
-    /// Warns about one field: "Kind@name: 1 what (first at ...)".
-    void warn(std::string_view name, const std::string& what) const;
+    /// Warns about one field: "Kind@name: COUNT what (first at ...)".
+    void warn(std::string_view name, const std::string& what, std::size_t count = 1) const;
 
   private:
     /// The field's text; null when it is not given or empty.

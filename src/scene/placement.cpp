@@ -34,7 +34,7 @@ Placement Placement::inside(const Fields& transform) const {
     inner.uniform = uniform && same_size;
     inner.mirrored = mirrored != ((scale.x < 0) != ((scale.y < 0) != (scale.z < 0)));
     inner.singular = singular || size.x == 0 || size.y == 0 || size.z == 0;
-    inner.rotation = this->rotation * rotation;
+    inner.turn = turn * rotation;
     inner.length_scale =
         length_scale *
         (same_size ? size.x : std::cbrt(size.x) * std::cbrt(size.y) * std::cbrt(size.z));

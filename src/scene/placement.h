@@ -21,7 +21,7 @@ struct Placement {
     /// World units in one local unit: the product of |scale| where `uniform`, else the cube root of
     /// |determinant|.
     double length_scale = 1;
-    Matrix3 rotation;  ///< the product of the rotation fields alone
+    Matrix3 turn;  ///< the product of the rotation fields alone
 
     /// The placement of the children of a Transform that stands here:
     /// P' = T C R SR S -SR -C P (ISO/IEC 19775-1 clause 10).

@@ -99,7 +99,7 @@ Background read_background(const Fields& fields, const Placement& placement) {
     background.ground_color = fields.colors("groundColor");
     const Numbers ground = fields.clamped_numbers("groundAngle", {0, std::numbers::pi / 2});
     background.ground_angle.assign(ground.begin(), ground.end());
-    background.zenith = normalized(placement.rotation * background.zenith);
+    background.zenith = normalized(placement.turn * background.zenith);
     match(fields, "skyAngle", background.sky_color, background.sky_angle);
     match(fields, "groundAngle", background.ground_color, background.ground_angle);
     for (const char* picture :

@@ -1,4 +1,5 @@
 // Concave polygons: convex="false".
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -126,6 +127,54 @@ TEST(Triangulation, PolygonsThatCrossThemselvesAreFansWithAWarning) {
               std::vector<std::string>{
                   "IndexedFaceSet@coordIndex: 1 with a polygon that crosses itself drawn as a fan "
                   "(first at Scene/Transform/Shape/IndexedFaceSet, line 1)"});
+}
+
+/// The warnings about one face of these points that claims to be convex.
+std::size_t faces_called_concave(const std::string& points, int corners) {
+    std::string index;
+    for (int i = 0; i < corners; ++i) index += std::to_string(i) + " ";
+    const Scene scene =
+        load(bare(shape("<IndexedFaceSet coordIndex='" + index + "'><Coordinate point='" + points +
+                        "'/></IndexedFaceSet>")));
+    const std::string expected =
+        "IndexedFaceSet@coordIndex: 1 with a face that is not convex, which is undefined without "
+        "convex='false', drawn as a fan (first at Scene/Shape/IndexedFaceSet, line 1)";
+    for (const std::string& warning : scene.warnings) EXPECT_EQ(warning, expected);
+    return scene.warnings.size();
+}
+
+// 19775-1, 13.3.6: with convex TRUE, the default, what comes of a concave face is undefined.
+TEST(Triangulation, FacesThatClaimToBeConvexAndAreNotAreWarnedOf) {
+    const auto turned = [](const std::vector<std::array<double, 2>>& polygon, int plane) {
+        std::string points;
+        for (const auto& [x, y] : polygon) {
+            const double all[][3] = {{x, y, 5}, {5, x, y}, {y, 5, x}, {x, x, y}, {x + y, y, x - y}};
+            for (const double value : all[plane]) points += std::to_string(value) + " ";
+        }
+        return faces_called_concave(points, static_cast<int>(polygon.size()));
+    };
+    std::vector<std::array<double, 2>> star, round;
+    for (int i = 0; i < 5; ++i)
+        star.push_back({std::sin(i * 0.8 * M_PI), std::cos(i * 0.8 * M_PI)});
+    for (int i = 0; i < 96; ++i)
+        round.push_back({std::sin(i * M_PI / 48), std::cos(i * M_PI / 48)});
+    for (int plane = 0; plane < 5; ++plane) {
+        EXPECT_EQ(turned({{-2, -1}, {0, 0}, {2, -1}, {0, 2}}, plane), 1u) << plane;  // a dart
+        EXPECT_EQ(turned({{0, 0}, {2, 2}, {2, 0}, {0, 2}}, plane), 1u) << plane;     // a bow
+        EXPECT_EQ(turned({{0, 0}, {3, 3}, {2, 0}, {0, 2}}, plane), 1u) << plane;
+        EXPECT_EQ(turned({{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}, plane), 1u) << plane;
+        EXPECT_EQ(turned(star, plane), 1u) << plane;  // turns left everywhere, twice round
+        EXPECT_EQ(turned(round, plane), 0u) << plane;
+        EXPECT_EQ(turned({{0, 0}, {2, 0}, {2, 1}, {0, 1}}, plane), 0u) << plane;
+        EXPECT_EQ(turned({{0, 0}, {0, 1}, {2, 1}, {2, 0}}, plane), 0u) << plane;
+        // Points in the middle of edges, put down to six digits, doubled ones, no area at all.
+        EXPECT_EQ(turned({{0, 0}, {1, 0.000001}, {3, 0}, {3, 2}, {0, 2}}, plane), 0u) << plane;
+        EXPECT_EQ(turned({{0, 0}, {2, 0}, {2, 0}, {2, 1}, {0, 1}, {0, 0}}, plane), 0u) << plane;
+        EXPECT_EQ(turned({{0, 0}, {1, 0}, {2, 0}, {1, 0}}, plane), 0u) << plane;
+    }
+    // Bent quadrilaterals: the saddle is convex as seen along its area vector, the other is not.
+    EXPECT_EQ(faces_called_concave("0 0 0 1 0 1 1 1 0 0 1 1", 4), 0u);
+    EXPECT_EQ(faces_called_concave("-2 -1 0 0 0 1 2 -1 0 0 2 0", 4), 1u);
 }
 
 TEST(Triangulation, CornersTooManyToCutInTimeAreRefused) {
