@@ -144,7 +144,7 @@ Pass run_repeatedly(const Scene& scene, const Options& options, const Profile& p
     run->describe(pass, options);
     run->count(pass, options);
     meter.end();
-    pass.remarks = remarks(scene, profile, samples,
+    pass.remarks = remarks(scene, options, profile, samples,
                            [&](std::span<const Ray> rays) { return run->answers(rays); });
     pass.memory.picture = vector_bytes(picture.pixels()) + vector_bytes(samples.pixels());
     if (options.samples == 1) picture = std::move(samples);

@@ -108,26 +108,6 @@ Bounds3 bounds_of(const Scene& scene) {
     return box;
 }
 
-std::string nothing_met(const Scene& scene, const Met& met, std::size_t pixels) {
-    const Bounds3 box = bounds_of(scene);
-    if (box.empty()) return "no ray met anything: there is no shape to draw";
-    const std::string none =
-        met.asked == pixels
-            ? "no ray met anything"
-            : format("none of %zu rays, spread over the picture, met anything", met.asked);
-    return none +
-           format(
-               ": the shapes lie between %.6g %.6g %.6g and %.6g %.6g %.6g, the camera is at "
-               "%.6g %.6g %.6g (--viewpoint=fit looks at them)",
-               box.min.x, box.min.y, box.min.z, box.max.x, box.max.y, box.max.z,
-               scene.camera.position.x, scene.camera.position.y, scene.camera.position.z);
-}
-
-std::string all_dark(const Scene& scene) {
-    return "no light adds anything to what is seen, of " + counted(scene.lights.size(), "light") +
-           " (--headlight=on adds one at the camera)";
-}
-
 /// Whether the ray meets the back of a triangle of the mesh before any front.
 bool sees_back(const TriangleMesh& mesh, const Ray& ray) {
     const ExactRay exact(ray);
@@ -142,6 +122,56 @@ bool sees_back(const TriangleMesh& mesh, const Ray& ray) {
         back = !hit(exact, triangle, counts, Sides::kFront);
     }
     return back;
+}
+
+/// Whether rays of the picture, as many as there is time for, meet backs of solid meshes. (Those of
+/// round shapes are seen from within alone.)
+bool meets_backs(const Scene& scene, const Image& picture) {
+    constexpr std::uint64_t kMostRays = 1 << 10;
+    constexpr std::uint64_t kMostTests = 1 << 22;
+    std::uint64_t triangles = 1;
+    for (const Object& object : scene.objects)
+        if (const auto* mesh = std::get_if<TriangleMesh>(&object.shape))
+            triangles += mesh->triangles.size();
+    const RayGenerator generator(scene.camera, {picture.width(), picture.height()});
+    const Pixels pixels(picture);
+    const std::uint64_t rays =
+        std::min({pixels.count(), kMostRays, std::max<std::uint64_t>(kMostTests / triangles, 1)});
+    for (std::uint64_t i = 0; i < rays; ++i)
+        for (const Object& object : scene.objects)
+            if (const auto* mesh = std::get_if<TriangleMesh>(&object.shape);
+                mesh != nullptr && object.solid &&
+                sees_back(*mesh, generator.ray(pixels.x(i), pixels.y(i))))
+                return true;
+    return false;
+}
+
+std::string nothing_met(const Scene& scene, const Options& options, const Profile& profile,
+                        const Met& met, const Image& picture) {
+    const Bounds3 box = bounds_of(scene);
+    if (box.empty()) return "no ray met anything: there is no shape to draw";
+    const std::string none =
+        met.asked == picture.pixels().size()
+            ? "no ray met anything"
+            : format("none of %zu rays, spread over the picture, met anything", met.asked);
+    if (profile.back_faces == BackFaces::kSolid && meets_backs(scene, picture))
+        return none +
+               ": of the shapes in sight all that faces the camera are backs of solid ones, which "
+               "are invisible (--back-faces=draw draws them, solid='false' in the file lights "
+               "them, too)";
+    return none +
+           format(
+               ": the shapes lie between %.6g %.6g %.6g and %.6g %.6g %.6g, the camera is at "
+               "%.6g %.6g %.6g",
+               box.min.x, box.min.y, box.min.z, box.max.x, box.max.y, box.max.z,
+               scene.camera.position.x, scene.camera.position.y, scene.camera.position.z) +
+           (options.viewpoint == x3d::kFittedView ? "" : " (--viewpoint=fit looks at them)");
+}
+
+std::string all_dark(const Scene& scene) {
+    const bool has_headlight = !scene.lights.empty() && !scene.lights.back().casts_shadow;
+    return "no light adds anything to what is seen, of " + counted(scene.lights.size(), "light") +
+           (has_headlight ? "" : " (--headlight=on adds one at the camera)");
 }
 
 /// Whether the point is surrounded by the shape's inner side.
@@ -174,14 +204,14 @@ std::optional<std::string> inside_solid(const Scene& scene) {
 
 }  // namespace
 
-std::vector<std::string> remarks(const Scene& scene, const Profile& profile, const Image& picture,
-                                 const Answers& answers) {
+std::vector<std::string> remarks(const Scene& scene, const Options& options, const Profile& profile,
+                                 const Image& picture, const Answers& answers) {
     std::vector<std::string> lines;
     const Suspicion may = suspicion(scene, picture);
     if (may.empty || may.dark) {
         const Met met = met_by(scene, picture, answers);
         if (met.any == 0)
-            lines.push_back(nothing_met(scene, met, picture.pixels().size()));
+            lines.push_back(nothing_met(scene, options, profile, met, picture));
         else if (may.dark && met.lit > 0 && met.alight == 0)
             lines.push_back(all_dark(scene));
     }

@@ -79,6 +79,39 @@ TEST_F(Remarks, AnEmptyPictureNamesTheBounds) {
               "");
 }
 
+// 19775-1, 11.2.3 and 13.3.6: the back of a solid face is not seen. The triangle turns clockwise
+// for the camera.
+TEST_F(Remarks, BacksOfSolidsAreNamedWhereTheyAreAllThatFacesTheCamera) {
+    const auto triangle = [](const std::string& fields) {
+        return "<Shape><Appearance><Material/></Appearance><IndexedFaceSet coordIndex='0 2 1' " +
+               fields + "><Coordinate point='0 0 0 2 0 0 0 2 0'/></IndexedFaceSet></Shape>";
+    };
+    const std::string line =
+        "nuvo: note: no ray met anything: of the shapes in sight all that faces the camera are "
+        "backs of solid ones, which are invisible (--back-faces=draw draws them, solid='false' in "
+        "the file lights them, too)\n";
+    EXPECT_EQ(said("<Viewpoint/>" + triangle("")), line);
+    EXPECT_EQ(said("<Viewpoint/>" + triangle(""), {"--viewpoint=fit"}), line);
+    // Drawn as a front its back is dark.
+    EXPECT_EQ(said("<Viewpoint/>" + triangle(""), {"--back-faces=draw"}),
+              "nuvo: note: no light adds anything to what is seen, of 1 light\n");
+    EXPECT_EQ(said("<Viewpoint/>" + triangle("solid='false'")), "");
+    // Out of sight it is not the back that is the cause.
+    const std::string away = said("<Viewpoint position='0 90 10'/>" + triangle(""));
+    EXPECT_TRUE(contains(away, "(--viewpoint=fit looks at them)")) << away;
+}
+
+TEST_F(Remarks, FlagsThatAreGivenAreNotNamed) {
+    const std::string named =
+        said("<Viewpoint DEF='fit'/>" + sphere("60 0 0"), {"--viewpoint=fit"});
+    EXPECT_TRUE(contains(named, "the camera is at 0 0 10\n")) << named;
+    const std::string dark = said(
+        "<Viewpoint/><Shape><Appearance><Material diffuseColor='0.001 0 0'/></Appearance>"
+        "<Sphere/></Shape>",
+        {"--headlight=on"});
+    EXPECT_TRUE(contains(dark, "of 1 light\n")) << dark;
+}
+
 TEST_F(Remarks, LightsThatAddNothingAreNamed) {
     for (const char* light :
          {"<PointLight location='0 0 9' radius='1'/>", "<DirectionalLight direction='0 0 1'/>",
