@@ -5,6 +5,7 @@
 #include <charconv>
 #include <fstream>
 #include <new>
+#include <string_view>
 #include <system_error>
 
 #include "fields.h"
@@ -36,7 +37,7 @@ Version read_version(const Element& root, Messages& messages) {
         const auto minor = std::from_chars(major.ptr + 1, end, version.minor);
         if (minor.ec == std::errc{} && minor.ptr == end) return version;
     }
-    messages.warn("X3D@version", "not understood and left out", root);
+    messages.warn_field_left_out(root, "version", "\"" + excerpt(*text) + "\" is no version");
     return {};
 }
 
@@ -87,11 +88,25 @@ const Element& find_scene(const Element& root, Messages& messages) {
     fail_to_read(path, what + ": " + (error ? error.message() : "unknown reason"));
 }
 
+/// The bytes that %20 and the like stand for (RFC 3986); other percent signs stay.
+std::string percent_decoded(std::string_view url) {
+    std::string text;
+    for (std::size_t i = 0; i < url.size(); ++i) {
+        unsigned char byte = 0;
+        const char* const digits = url.data() + i + 1;
+        const bool is_escape = url[i] == '%' && i + 2 < url.size() &&
+                               std::from_chars(digits, digits + 2, byte, 16).ptr == digits + 2;
+        text += is_escape ? static_cast<char>(byte) : url[i];
+        if (is_escape) i += 2;
+    }
+    return text;
+}
+
 /// True for a name that stays within a folder: relative, without "..", and no address of the net.
 bool stays_inside(const std::string& url) {
     const fs::path path = url;
-    return !url.empty() && url.find(':') == std::string::npos && !path.has_root_path() &&
-           std::find(path.begin(), path.end(), "..") == path.end();
+    return !url.empty() && url.find_first_of(std::string_view(":\0", 2)) == std::string::npos &&
+           !path.has_root_path() && std::find(path.begin(), path.end(), "..") == path.end();
 }
 
 /// True where the system tells that there is no such file for the reader: what the scene says. All
@@ -101,6 +116,15 @@ bool is_absence(const std::error_code& error) {
            error == std::errc::permission_denied ||
            error == std::errc::too_many_symbolic_link_levels ||
            error == std::errc::filename_too_long;
+}
+
+std::string in_quotes(const std::string& url) { return "\"" + excerpt(url) + "\""; }
+
+/// Of no url of a node anything could be loaded; each url is told of in a line of its own.
+void warn_of_url(const Fields& fields, const std::string& reason) {
+    if (reason.empty()) return fields.reject("url", "names nothing");
+    if (fields.is_strict()) fields.refuse("url", reason);
+    fields.warn("url", "left out: " + reason);
 }
 
 bool is_below(const fs::path& path, const fs::path& folder) {
@@ -219,7 +243,7 @@ void Documents::note(const Element& node, const Document& document) {
 const Document* Documents::load_inline(const Element& node, const fs::path& folder) {
     const Fields fields(node, messages_);
     if (!fields.boolean("load", true)) return nullptr;
-    std::string reason = "without a url left out";
+    std::string reason;
     for (const std::string& url : fields.strings("url")) {
         const std::optional<fs::path> path = find_inline(url, folder, reason);
         if (!path) continue;
@@ -237,7 +261,7 @@ const Document* Documents::load_inline(const Element& node, const fs::path& fold
         open_.pop_back();
         return by_path_[canonical] = &document;
     }
-    fields.warn("url", reason);
+    warn_of_url(fields, reason);
     return nullptr;
 }
 
@@ -262,7 +286,7 @@ Prototype Documents::declared(Prototype prototype) {
 
 Prototype Documents::load_prototype(const Element& node, const fs::path& folder) {
     const Fields fields(node, messages_);
-    std::string reason = "without a url left out";
+    std::string reason;
     for (const std::string& url : fields.strings("url")) {
         const std::optional<fs::path> path = find_inline(url, folder, reason);
         if (!path) continue;
@@ -273,33 +297,39 @@ Prototype Documents::load_prototype(const Element& node, const fs::path& folder)
         const std::size_t mark = url.find('#');
         const Element* found = document->first_declaration;
         if (mark != std::string::npos) {
-            const auto named = document->declarations.find(std::string_view(url).substr(mark + 1));
+            const auto named = document->declarations.find(
+                percent_decoded(std::string_view(url).substr(mark + 1)));
             found = named != document->declarations.end() ? named->second : nullptr;
         }
         if (found != nullptr) return {found, nullptr, document};
-        reason = "naming no prototype of its file left out";
+        if (reason.empty()) reason = in_quotes(url) + " names no prototype of its file";
     }
-    fields.warn("url", reason);
+    warn_of_url(fields, reason);
     return {};
 }
 
 std::optional<fs::path> Documents::find_inline(const std::string& url, const fs::path& folder,
                                                std::string& reason) const {
-    const std::string name = url.substr(0, url.find('#'));
-    reason = "leading out of the scene's folder left out";
-    if (home_.empty() || !stays_inside(name)) return std::nullopt;
+    const std::string name = percent_decoded(std::string_view(url).substr(0, url.find('#')));
+    const auto tell = [&](const char* what) {  // of the first url, which others stand in for
+        if (reason.empty()) reason = in_quotes(url) + what;
+        return std::nullopt;
+    };
+    if (home_.empty()) return tell(" is not looked for: only a scene in a file has a folder");
+    constexpr const char* kOut = " leads out of the scene's folder";
+    if (!stays_inside(name)) return tell(kOut);
     const fs::path path = folder / name;
     std::error_code error;
     const fs::path canonical = fs::canonical(path, error);
     if (error && !is_absence(error)) fail_to_read(path, "cannot be found", error);
-    if (!error && !is_below(canonical, home_)) return std::nullopt;  // by a link
-    reason = "naming no X3D file that can be read left out";
+    if (!error && !is_below(canonical, home_)) return tell(kOut);  // by a link
+    constexpr const char* kNoFile = " names no X3D file that can be read";
     const bool named_x3d = path.extension() == ".x3d" || path.extension() == ".x3dz";
-    if (error || !named_x3d || !fs::is_regular_file(canonical, error)) return std::nullopt;
+    if (error || !named_x3d || !fs::is_regular_file(canonical, error)) return tell(kNoFile);
     errno = 0;
     if (!std::ifstream(canonical, std::ios::binary)) {
         error = {errno, std::generic_category()};
-        if (errno != 0 && is_absence(error)) return std::nullopt;
+        if (errno != 0 && is_absence(error)) return tell(kNoFile);
         fail_to_read(path, "cannot be opened", error);
     }
     return path;

@@ -59,6 +59,7 @@ void Messages::warn_field_left_out(const Element& element, std::string_view fiel
 }
 
 void Messages::warn_left_out(std::string_view subject, const LeftOut& left_out) {
+    if (strict_) refuse(*left_out.element, left_out.attribute, left_out.reason);
     if (muted_) return;
     Warning& warning = find(excerpt(subject), "left out", *left_out.element);
     if (warning.count++ > 0) return;

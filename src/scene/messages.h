@@ -54,7 +54,7 @@ class Messages {
     /// "Kind@field: COUNT left out (first at PLACE, line N: reason)".
     void warn_field_left_out(const Element& element, std::string_view field,
                              const std::string& reason);
-    /// Warns that a node of kind `subject` was left out:
+    /// Warns that a node of kind `subject` was left out, or where strict refuses:
     /// "subject: COUNT left out (first at PLACE@attribute, line N: reason)".
     void warn_left_out(std::string_view subject, const LeftOut& left_out);
 

@@ -31,12 +31,17 @@ std::string_view Names::attribute_name(std::string_view spelled, const Element& 
         const FieldName field = find_field(element.name, spelled, names.size() < kMostSuggestions);
         const bool is_taken = !strict_ && field.name != spelled;
         found->second.meant = is_taken ? field.name : std::string_view(found->first);
-        found->second.suggestion = is_taken ? std::string_view{} : field.suggestion;
+        if (!is_taken)
+            found->second.suggestion = field.name != spelled ? field.name : field.suggestion;
     }
     Name& name = found->second;
     if (name.meant != found->first || !name.suggestion.empty())
         note(found->first, name, true, element);
     return name.meant;
+}
+
+std::string no_such_field(std::string_view suggestion) {
+    return "there is no such field: did you mean " + std::string(suggestion) + "?";
 }
 
 void Names::warn(Messages& messages) const {
@@ -45,9 +50,11 @@ void Names::warn(Messages& messages) const {
         std::string subject(noted.is_attribute ? std::string(name.first->name) + "@" : "");
         subject += excerpt(noted.spelled);
         std::string what = "read as " + std::string(name.meant);
-        if (!name.suggestion.empty())
-            what = "left out, as there is no such field: did you mean " +
-                   std::string(name.suggestion) + "?";
+        if (!name.suggestion.empty()) {
+            what = no_such_field(name.suggestion);
+            if (strict_) messages.refuse(*name.first, excerpt(noted.spelled), what);
+            what.insert(0, "left out, as ");
+        }
         messages.warn(subject, what, *name.first, name.count);
     }
 }

@@ -11,6 +11,9 @@
 
 namespace nuvo::x3d {
 
+/// What is said of a field that its node does not have.
+std::string no_such_field(std::string_view suggestion);
+
 /// The names of a document's elements and attributes, each kept once, and what they stand for:
 /// unless the reading is strict, one that differs from a name of X3D by the case of its letters
 /// only stands for that.

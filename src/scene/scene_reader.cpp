@@ -210,6 +210,8 @@ void SceneReader::read_shape(const Element& node, Group& group) {
         const Element*& place = kind == "Appearance" ? appearance : geometry;
         if (place == nullptr)
             place = &child.node();
+        else if (messages_.is_strict())
+            messages_.refuse(child, "", "is beyond the first of its Shape");
         else
             messages_.warn(kind, "beyond the first of its Shape left out", child);
     }

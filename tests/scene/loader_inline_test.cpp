@@ -32,9 +32,11 @@ class LoaderInline : public testing::Test {
 };
 
 const std::string kBall = shape("<Sphere radius='2'/>");
-const std::string kOut = "Inline@url: 1 leading out of the scene's folder left out (first at ";
-const std::string kMissing =
-    "Inline@url: 1 naming no X3D file that can be read left out (first at ";
+std::string left_out(const std::string& url, const std::string& what) {
+    return "Inline@url: 1 left out: \"" + url + "\" " + what + " (first at Scene/Inline, line 1)";
+}
+const std::string kOut = "leads out of the scene's folder";
+const std::string kMissing = "names no X3D file that can be read";
 
 TEST_F(LoaderInline, StandsWhereItIsPlaced) {
     put("parts/ball.x3d", bare("<Transform scale='3 3 3'>" + kBall + "</Transform>"));
@@ -67,13 +69,47 @@ TEST_F(LoaderInline, NamesAreRelativeToTheFileTheyStandIn) {
 TEST_F(LoaderInline, WhatCannotBeLoadedIsLeftOutWithAWarning) {
     put("pictures.png", "");
     std::filesystem::create_directory(folder_.path() / "folder.x3d");
-    for (const char* url : {"missing.x3d", "pictures.png", "folder.x3d"})
-        EXPECT_EQ(warnings_of("<Inline url='" + std::string(url) + "'/>"),
-                  Strings{kMissing + "Scene/Inline, line 1)"})
-            << url;
+    for (const char* url : {"missing.x3d", "pictures.png", "folder.x3d"}) {
+        const std::string nodes = "<Inline url='" + std::string(url) + "'/>";
+        EXPECT_EQ(warnings_of(nodes), Strings{left_out(url, kMissing)}) << url;
+        EXPECT_EQ(refusal_of(bare(nodes)), "main.x3d: Scene/Inline@url: \"" + std::string(url) +
+                                               "\" " + kMissing + " (line 1)");
+    }
     EXPECT_EQ(warnings_of("<Inline/>"),
-              Strings{"Inline@url: 1 without a url left out (first at Scene/Inline, line 1)"});
+              Strings{"Inline@url: 1 left out (first at Scene/Inline, line 1: names nothing)"});
+    EXPECT_EQ(refusal_of(bare("<Inline/>")), "main.x3d: Scene/Inline@url: names nothing (line 1)");
     EXPECT_TRUE(warnings_of("<Inline load='false' url='missing.x3d'/>").empty());
+    // Each url has a line of its own; of several in one node the first is told.
+    EXPECT_EQ(warnings_of("<Inline url='a.x3d'/><Inline url='\"b.x3d\" \"../c.x3d\"'/>"
+                          "<Inline url='a.x3d'/>"),
+              (Strings{"Inline@url: 2 left out: \"a.x3d\" names no X3D file that can be read "
+                       "(first at Scene/Inline[1], line 1)",
+                       "Inline@url: 1 left out: \"b.x3d\" names no X3D file that can be read "
+                       "(first at Scene/Inline[2], line 1)"}));
+}
+
+// RFC 3986, 2.1; what is decoded leads no further than what is written.
+TEST_F(LoaderInline, PercentSignsAndTwoDigitsAreBytes) {
+    put("part one.x3d", bare(kBall));
+    put("sub/100%.x3d", bare(kBall));
+    for (const char* url : {"part%20one.x3d", "%70art%20one%2ex3d#%20", "sub/100%25.x3d",
+                            "sub/100%.x3d", "sub%2F100%.x3d"})
+        EXPECT_EQ(load_main(bare("<Inline url='\"" + std::string(url) + "\"'/>")).objects.size(),
+                  1u)
+            << url;
+    const TemporaryFolder elsewhere;
+    const std::string outside = elsewhere.put("ball.x3d", bare(kBall)).string();
+    put("sub/inner.x3d", bare("<Inline url='%2e%2e/part%20one.x3d'/>"));
+    const std::string name = elsewhere.path().filename().string();
+    for (const std::string& url :
+         {"%2e%2e/" + name + "/ball.x3d", "%2E./" + name + "/ball.x3d",
+          "..%2f" + name + "%2Fball.x3d", "%2f" + outside.substr(1), "file%3a//" + outside,
+          std::string("sub/inner.x3d%00"), std::string("%2e%2e%2fx.x3d")})
+        EXPECT_EQ(warnings_of("<Inline url='" + url + "'/>"), Strings{left_out(url, kOut)}) << url;
+    EXPECT_EQ(warnings_of("<Inline url='sub/inner.x3d'/>").size(), 1u);
+    // Decoded once only.
+    EXPECT_EQ(warnings_of("<Inline url='%252e%252e/ball.x3d'/>"),
+              Strings{left_out("%252e%252e/ball.x3d", kMissing)});
 }
 
 TEST_F(LoaderInline, NothingOutsideTheFolderIsLoaded) {
@@ -88,24 +124,25 @@ TEST_F(LoaderInline, NothingOutsideTheFolderIsLoaded) {
           "../" + folder_.path().filename().string() + "/ball.x3d", std::string("link.x3d"),
           std::string("link/ball.x3d")}) {
         const Scene scene = load_main(bare("<Inline url='" + url + "'/>"));
-        EXPECT_EQ(scene.warnings, Strings{kOut + "Scene/Inline, line 1)"}) << url;
+        EXPECT_EQ(scene.warnings, Strings{left_out(url, kOut)}) << url;
         EXPECT_TRUE(scene.objects.empty()) << url;
     }
     EXPECT_EQ(load_main(bare("<Inline url='sub/inner.x3d'/>")).warnings,
-              Strings{kOut.substr(0, kOut.size() - 3) + "in " +
+              Strings{"Inline@url: 1 left out: \"../ball.x3d\" " + kOut + " (first in " +
                       (folder_.path() / "sub/inner.x3d").string() + " at Scene/Inline, line 1)"});
-    EXPECT_EQ(load(bare("<Inline url='ball.x3d'/>")).warnings,
-              Strings{kOut + "Scene/Inline, line 1)"});
+    EXPECT_EQ(
+        load(bare("<Inline url='ball.x3d'/>")).warnings,
+        Strings{left_out("ball.x3d", "is not looked for: only a scene in a file has a folder")});
 }
 
 TEST_F(LoaderInline, CyclesAreRefused) {
     put("a.x3d", bare("<Inline url='b.x3d'/>"));
-    put("b.x3d", bare("<Inline url='sub/../a.x3d'/><Inline url='main.x3d'/>"));
+    put("b.x3d", bare("<Inline url='main.x3d'/><Inline url='sub/../a.x3d'/>"));
     EXPECT_EQ(refusal_of(bare("<Inline url='main.x3d'/>")),
               "main.x3d: Scene/Inline@url: main.x3d is the file itself or one that Inlines it "
               "(line 1)");
     EXPECT_EQ(refusal_of(bare("<Inline url='a.x3d'/>")),
-              "b.x3d: Scene/Inline[2]@url: main.x3d is the file itself or one that Inlines it "
+              "b.x3d: Scene/Inline[1]@url: main.x3d is the file itself or one that Inlines it "
               "(line 1)");
 }
 

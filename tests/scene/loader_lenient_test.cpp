@@ -262,6 +262,28 @@ TEST(LoaderLenient, NearlyRightFieldsAreAskedAfter) {
                        "Material@difuseColor: 1 left out, as there is no such field: did you mean "
                        "diffuseColor? (first at Scene/Material, line 1)",
                        "Material: 1 not drawn (first at Scene/Material, line 1)"}));
+    EXPECT_EQ(refusal(bare(shape("<Sphere raduis='3'/>"))),
+              "scene.x3d: Scene/Shape/Sphere@raduis: there is no such field: did you mean radius? "
+              "(line 1)");
+    EXPECT_EQ(refusal(bare(shape("<Sphere Radius='3'/>"))),
+              "scene.x3d: Scene/Shape/Sphere@Radius: there is no such field: did you mean radius? "
+              "(line 1)");
+}
+
+TEST(LoaderLenient, StrictReadingRefusesWhateverIsLeftOut) {
+    EXPECT_EQ(
+        refusal(bare("<ProtoInstance name='no'/>")),
+        "scene.x3d: Scene/ProtoInstance: no prototype of the name \"no\" can be read (line 1)");
+    EXPECT_EQ(refusal(bare("<ProtoDeclare name='e'><ProtoBody/></ProtoDeclare>"
+                           "<ProtoInstance name='e'/>")),
+              "scene.x3d: Scene/ProtoInstance: the prototype \"e\" has no node (line 1)");
+    EXPECT_EQ(refusal("<X3D version='new'><Scene/></X3D>"),
+              "scene.x3d: X3D@version: \"new\" is no version (line 1)");
+    EXPECT_EQ(refusal(bare("<Inline url='a.x3d'/>")),
+              "scene.x3d: Scene/Inline@url: \"a.x3d\" is not looked for: only a scene in a file "
+              "has a folder (line 1)");
+    EXPECT_EQ(refusal(bare("<Shape><Box/><Sphere/></Shape>")),
+              "scene.x3d: Scene/Shape/Sphere: is beyond the first of its Shape (line 1)");
 }
 
 TEST(LoaderLenient, FilesOfOtherFormatsAreNamed) {

@@ -195,12 +195,20 @@ TEST_F(LoaderExternPrototypes, AreReadFromTheScenesFolder) {
                                         "\"lib/parts.x3d#Ball\""))),
               Radii{2});
     EXPECT_EQ(radii(load_main(extern_of("lib/parts.x3d"))), Radii{50});  // without a name the first
-    EXPECT_EQ(load_main(extern_of("lib/parts.x3d#Nothing")).objects.size(), 0u);
+    EXPECT_EQ(radii(load_main(extern_of("lib%2Fparts.x3d#%4fther"))), Radii{50});
+    const Scene nothing = load_main(extern_of("lib/parts.x3d#Nothing"));
+    EXPECT_EQ(nothing.objects.size(), 0u);
+    EXPECT_EQ(nothing.warnings.at(0),
+              "ExternProtoDeclare@url: 1 left out: \"lib/parts.x3d#Nothing\" names no prototype of "
+              "its file (first at Scene/ExternProtoDeclare, line 1)");
+    EXPECT_THROW(
+        x3d::read_file(folder_.put("strict.x3d", bare(extern_of("no.x3d"))), {.strict = true}),
+        x3d::Error);
     const Scene outside = load_main(extern_of("../parts.x3d#Ball"));
     EXPECT_EQ(outside.objects.size(), 0u);
     EXPECT_EQ(outside.warnings.at(0),
-              "ExternProtoDeclare@url: 1 leading out of the scene's folder left out (first at "
-              "Scene/ExternProtoDeclare, line 1)");
+              "ExternProtoDeclare@url: 1 left out: \"../parts.x3d#Ball\" leads out of the scene's "
+              "folder (first at Scene/ExternProtoDeclare, line 1)");
     EXPECT_EQ(outside.warnings.size(), 2u);
 }
 

@@ -285,7 +285,7 @@ TEST(LoaderWarnings, AnUnreadableVersionCountsAsNone) {
     const Scene scene = load(versioned("three", "<SpotLight/>"));
     EXPECT_EQ(scene.lights.at(0).beam_width, 0.785398);
     EXPECT_EQ(scene.warnings,
-              Strings{"X3D@version: 1 not understood and left out (first at X3D, line 1)"});
+              Strings{"X3D@version: 1 left out (first at X3D, line 1: \"three\" is no version)"});
 }
 
 TEST(LoaderWarnings, ManyKindsAreCutOff) {
