@@ -1,5 +1,6 @@
 #include "lights.h"
 
+#include <algorithm>
 #include <limits>
 #include <numbers>
 
@@ -70,6 +71,15 @@ std::optional<PlacedLight> read_light(Light::Kind kind, const Fields& fields,
     placed.scoped = is_scoped(kind, fields, version);
     if (!on) return std::nullopt;
     return placed;
+}
+
+bool may_reach(const Light& light, const Bounds3& box) {
+    Vector3 gap;  // from the location to the box
+    for (int axis = 0; axis < 3; ++axis)
+        gap[axis] = std::max(
+            {box.min[axis] - light.location[axis], 0.0, light.location[axis] - box.max[axis]});
+    constexpr double kRoundings = 1 + 1e-9;
+    return length(gap) <= light.radius * kRoundings;
 }
 
 }  // namespace nuvo::x3d

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "fields.h"
+#include "nuvo/math/bounds.h"
 #include "nuvo/scene/defaults.h"
 #include "nuvo/scene/light.h"
 #include "placement.h"
@@ -20,5 +21,8 @@ struct PlacedLight {
 std::optional<PlacedLight> read_light(Light::Kind kind, const Fields& fields,
                                       const Placement& placement, Version version,
                                       const Defaults& defaults);
+
+/// False where the radius of a light with a location surely ends before the box.
+bool may_reach(const Light& light, const Bounds3& box);
 
 }  // namespace nuvo::x3d

@@ -1,5 +1,6 @@
 #include "scene_reader.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "children.h"
@@ -25,16 +26,31 @@ Scene SceneReader::read(const Document& document) {
     if (documents_.has_levels()) find_camera_first(*document.scene);
     read_children(*document.scene, {});
     check_viewpoint();
-    for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
-        const LightScope& scope = scene_.lights[i].scope;
-        if (scope.first >= scope.last)
-            messages_.warn(light_nodes_[i]->name, "reaching no shape", *light_nodes_[i]);
-    }
+    warn_of_idle_lights();
     add_headlight();
     if (options_.shape_names != nullptr) options_.shape_names->resize(scene_.shape_count);
     scene_.materials = materials_.take();
     scene_.warnings = messages_.warnings();
     return std::move(scene_);
+}
+
+void SceneReader::warn_of_idle_lights() {
+    std::vector<Bounds3> boxes;
+    std::size_t tests_left = 100'000'000;
+    for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
+        const Light& light = scene_.lights[i];
+        const std::size_t last = std::min<std::size_t>(light.scope.last, scene_.objects.size());
+        bool is_idle = light.scope.first >= light.scope.last;
+        if (!is_idle && light.scope.first < last && light.kind != Light::Kind::kDirectional) {
+            if (boxes.empty())
+                for (const Object& object : scene_.objects) boxes.push_back(bounds(object.shape));
+            std::size_t object = light.scope.first;
+            for (; object < last && tests_left > 0; ++object, --tests_left)
+                if (may_reach(light, boxes[object])) break;
+            is_idle = object == last;
+        }
+        if (is_idle) messages_.warn(light_nodes_[i]->name, "reaching no shape", *light_nodes_[i]);
+    }
 }
 
 void SceneReader::find_camera_first(const Element& scene) {

@@ -59,6 +59,7 @@ class SceneReader {
     const Element* appearance_inside(const Element& geometry);
     std::optional<Shape> read_geometry(const Element& node, const Placement& placement);
     std::optional<Shape> read_sphere(const Element& node, const Placement& placement);
+    void warn_of_idle_lights();
     void close_scopes(const Group& group, std::size_t first_object);
     void add_headlight();
 

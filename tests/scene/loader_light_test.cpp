@@ -163,6 +163,24 @@ TEST(LoaderLight, ThatReachesNoShapeIsWarnedOf) {
     EXPECT_TRUE(load(versioned("3.0", nodes)).warnings.empty());
 }
 
+// 19775-1, 17.4.2: a PointLight lights what lies within its radius, 100 by default.
+TEST(LoaderLight, WhoseRadiusReachesNoShapeIsWarnedOf) {
+    const auto warnings = [](const std::string& light) {
+        return load(versioned("3.3", "<Transform translation='50 0 0'>" + kSphere + "</Transform>" +
+                                         light))
+            .warnings;
+    };
+    EXPECT_EQ(warnings("<PointLight location='0 200 0'/>"),
+              std::vector<std::string>{
+                  "PointLight: 1 reaching no shape (first at Scene/PointLight, line 1)"});
+    EXPECT_EQ(warnings("<SpotLight location='50 0 9' radius='7.99'/>").size(), 1u);
+    EXPECT_EQ(warnings("<SpotLight location='50 0 9' radius='8'/>").size(), 0u);
+    EXPECT_EQ(warnings("<PointLight location='50 0 0' radius='0'/>").size(), 0u);
+    EXPECT_EQ(
+        warnings("<Transform scale='3 3 3'><PointLight location='0 60 0'/></Transform>").size(),
+        0u);
+}
+
 TEST(LoaderHeadlight, LightsOnlyAFileWithoutLightsOrThatAsksForIt) {
     const auto lights = [](const std::string& nodes, Headlight headlight) {
         return load(bare(nodes), headlight).lights.size();
