@@ -288,9 +288,8 @@ void Fields::warn_clamped(std::string_view name, Range range) const {
 
 double Fields::clamped_number(std::string_view name, double fallback, Range range) const {
     const double value = number(name, fallback);
-    const double clamped = range.nearest(value);
-    if (clamped != value) warn_clamped(name, range);
-    return clamped;
+    if (range.is_beyond(value)) warn_clamped(name, range);
+    return range.nearest(value);
 }
 
 Vector3 Fields::clamped_vector(std::string_view name, const Vector3& fallback, Range range) const {
@@ -303,9 +302,8 @@ Vector3 Fields::clamped_vector(std::string_view name, const Vector3& fallback, R
 Numbers Fields::clamped_numbers(std::string_view name, Range range) const {
     Numbers values = numbers(name);
     for (double& value : values) {
-        const double clamped = range.nearest(value);
-        if (clamped != value) warn_clamped(name, range);
-        value = clamped;
+        if (range.is_beyond(value)) warn_clamped(name, range);
+        value = range.nearest(value);
     }
     return values;
 }

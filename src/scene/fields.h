@@ -17,11 +17,19 @@ namespace nuvo::x3d {
 struct Range {
     double low;
     double high;
+    /// What is beyond `high` by so small a part of it is the limit itself, rounded: no word of it.
+    double rounding = 0;
 
     constexpr double nearest(double value) const {
         return value < low ? low : high < value ? high : value;
     }
+    constexpr bool is_beyond(double value) const {
+        return value < low || value > high * (1 + rounding);
+    }
 };
+
+/// From 0 to a limit that files write in single precision, or as 3.1416 and 1.5708.
+constexpr Range up_to_angle(double radians) { return {0, radians, 1e-5}; }
 
 inline constexpr Range kUnit{0, 1};
 inline constexpr Range kNotNegative{0, std::numeric_limits<double>::infinity()};

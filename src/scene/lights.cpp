@@ -8,7 +8,7 @@ namespace nuvo::x3d {
 
 namespace {
 
-constexpr Range kQuarterTurn{0, std::numbers::pi / 2};
+constexpr Range kQuarterTurn = up_to_angle(std::numbers::pi / 2);
 
 /// Before 4.0 an intensity is at most 1 (ISO/IEC 19775-1 clause 17).
 Range intensity_range(Version version) { return version < Version{4, 0} ? kUnit : kNotNegative; }

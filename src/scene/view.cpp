@@ -94,10 +94,10 @@ Background read_background(const Fields& fields, const Placement& placement) {
     Background background;
     if (fields.has("skyColor")) background.sky_color = fields.colors("skyColor");
     if (background.sky_color.empty()) background.sky_color = {{0, 0, 0}};
-    const Numbers sky = fields.clamped_numbers("skyAngle", {0, std::numbers::pi});
+    const Numbers sky = fields.clamped_numbers("skyAngle", up_to_angle(std::numbers::pi));
     background.sky_angle.assign(sky.begin(), sky.end());
     background.ground_color = fields.colors("groundColor");
-    const Numbers ground = fields.clamped_numbers("groundAngle", {0, std::numbers::pi / 2});
+    const Numbers ground = fields.clamped_numbers("groundAngle", up_to_angle(std::numbers::pi / 2));
     background.ground_angle.assign(ground.begin(), ground.end());
     background.zenith = normalized(placement.turn * background.zenith);
     match(fields, "skyAngle", background.sky_color, background.sky_angle);

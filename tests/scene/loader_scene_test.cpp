@@ -235,6 +235,29 @@ TEST(LoaderView, BackgroundAnglesAreMadeToFitTheirColors) {
     EXPECT_EQ(scene.warnings.size(), 5u);  // clamped, too many, decreasing; too few; picture
 }
 
+// SFFloat is single precision: the floats nearest to pi and pi / 2 are above them.
+TEST(LoaderView, AnglesOfALimitRoundedAreTheLimit) {
+    for (const double digits : {1e4, 1e6, 1e7, 0.0}) {
+        const auto rounded = [digits](double angle) {
+            return digits > 0 ? std::ceil(angle * digits) / digits
+                              : static_cast<double>(static_cast<float>(angle));
+        };
+        char nodes[400];
+        std::snprintf(
+            nodes, sizeof nodes,
+            "<Background skyColor='0 0 0 1 1 1' skyAngle='%.17g' groundColor='0 0 0 1 1 1' "
+            "groundAngle='%.17g'/><SpotLight cutOffAngle='%.17g'/>",
+            rounded(M_PI), rounded(M_PI / 2), rounded(M_PI / 2));
+        const Scene scene = load(bare(nodes + shape("<Sphere/>")));
+        EXPECT_TRUE(scene.warnings.empty()) << digits << scene.warnings[0];
+        EXPECT_EQ(scene.background.sky_angle.at(0), M_PI);
+        EXPECT_EQ(scene.background.ground_angle.at(0), M_PI / 2);
+        EXPECT_EQ(scene.lights.at(0).cut_off_angle, M_PI / 2);
+    }
+    EXPECT_EQ(load(bare("<SpotLight cutOffAngle='1.571'/>" + shape("<Sphere/>"))).warnings.size(),
+              1u);
+}
+
 TEST(LoaderWarnings, NameEachKindOnceWithItsCountAndFirstPlace) {
     const Scene scene = load(
         bare("<Group/><Group><Shape><Text/></Shape></Group><Shape><Text/></Shape><TimeSensor/>"
