@@ -42,13 +42,14 @@ Version read_version(const Element& root, Messages& messages) {
 }
 
 /// Finds the declarations of prototypes, but for those inside others; of a name the first.
-void find_declarations(Document& document) {
+void find_declarations(Document& document, MadeElements& made) {
     std::vector<const Element*> pending{document.scene};
     while (!pending.empty()) {
         const Element& element = *pending.back();
         pending.pop_back();
         if (element.next != nullptr) pending.push_back(element.next);
         if (is_declaration(element)) {
+            check_connections(element, made);
             document.declarations.try_emplace(element.text("name"), &element);
             if (document.first_declaration == nullptr) document.first_declaration = &element;
         } else if (!element.children.empty()) {
@@ -220,7 +221,7 @@ Document& Documents::parse(std::string_view text, const std::string& name, const
         document.version = read_version(*document.root, messages_);
         document.units = read_units(*document.root, messages_);
     }
-    find_declarations(document);
+    find_declarations(document, made_);
     return document;
 }
 

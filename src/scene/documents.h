@@ -75,8 +75,8 @@ class Documents {
     void link(Document& document);
     const Document* load_inline(const Element& node, const std::filesystem::path& folder);
     Prototype load_prototype(const Element& node, const std::filesystem::path& folder);
-    /// The file that a url names. Nothing where it must not or cannot be read; why that is so of the
-    /// first url goes into `reason`.
+    /// The file that a url names. Nothing where it must not or cannot be read; why that is so of
+    /// the first url goes into `reason`.
     std::optional<std::filesystem::path> find_inline(const std::string& url,
                                                      const std::filesystem::path& folder,
                                                      std::string& reason) const;

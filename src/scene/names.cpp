@@ -40,22 +40,25 @@ std::string_view Names::attribute_name(std::string_view spelled, const Element& 
     return name.meant;
 }
 
-std::string no_such_field(std::string_view suggestion) {
-    return "there is no such field: did you mean " + std::string(suggestion) + "?";
+void warn_of_no_field(std::string_view node, std::string_view field, std::string_view suggestion,
+                      const Element& element, Messages& messages, std::size_t count) {
+    std::string what = "there is no such field";
+    if (!suggestion.empty()) what += ": did you mean " + std::string(suggestion) + "?";
+    if (messages.is_strict()) messages.refuse(element, excerpt(field), what);
+    messages.warn(excerpt(node) + "@" + excerpt(field), "left out, as " + what, element, count);
 }
 
 void Names::warn(Messages& messages) const {
     for (const Noted& noted : noted_) {
         const Name& name = *noted.name;
+        if (!name.suggestion.empty()) {
+            warn_of_no_field(name.first->name, noted.spelled, name.suggestion, *name.first,
+                             messages, name.count);
+            continue;
+        }
         std::string subject(noted.is_attribute ? std::string(name.first->name) + "@" : "");
         subject += excerpt(noted.spelled);
-        std::string what = "read as " + std::string(name.meant);
-        if (!name.suggestion.empty()) {
-            what = no_such_field(name.suggestion);
-            if (strict_) messages.refuse(*name.first, excerpt(noted.spelled), what);
-            what.insert(0, "left out, as ");
-        }
-        messages.warn(subject, what, *name.first, name.count);
+        messages.warn(subject, "read as " + std::string(name.meant), *name.first, name.count);
     }
 }
 

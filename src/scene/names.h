@@ -11,8 +11,10 @@
 
 namespace nuvo::x3d {
 
-/// What is said of a field that its node does not have.
-std::string no_such_field(std::string_view suggestion);
+/// Warns of a field that its node does not have, or where strict refuses; `suggestion`, if any, is
+/// the one that was probably meant.
+void warn_of_no_field(std::string_view node, std::string_view field, std::string_view suggestion,
+                      const Element& element, Messages& messages, std::size_t count = 1);
 
 /// The names of a document's elements and attributes, each kept once, and what they stand for:
 /// unless the reading is strict, one that differs from a name of X3D by the case of its letters

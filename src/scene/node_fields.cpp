@@ -152,6 +152,21 @@ std::size_t distance(std::string_view a, std::string_view b) {
 
 }  // namespace
 
+std::string_view nearest_name(const std::vector<std::string_view>& names, std::string_view name) {
+    // Two slips in a word of six letters or more, one in a shorter one.
+    std::size_t nearest = name.size() < 6 ? 2 : 3;
+    std::string_view result;
+    if (name.size() < 4 || name.size() > 40) return result;
+    for (const std::string_view candidate : names) {
+        const std::size_t slips = distance(name, candidate);
+        if (slips < nearest && candidate.size() > slips + 1) {
+            nearest = slips;
+            result = candidate;
+        }
+    }
+    return result;
+}
+
 FieldName find_field(std::string_view node, std::string_view attribute, bool suggest) {
     const auto known = node_fields().find(node);
     static const Fields every_node = words_of({kEveryNode});
@@ -159,20 +174,8 @@ FieldName find_field(std::string_view node, std::string_view attribute, bool sug
     if (std::find(fields.begin(), fields.end(), attribute) != fields.end()) return {attribute, {}};
     for (const std::string_view field : fields)
         if (equal_but_for_case(field, attribute)) return {field, {}};
-    // Two slips in a word of six letters or more, one in a shorter one.
-    const std::size_t most = attribute.size() < 6 ? 1 : 2;
-    FieldName result{attribute, {}};
-    std::size_t nearest = most + 1;
-    if (!suggest || known == node_fields().end() || attribute.size() < 4 || attribute.size() > 40)
-        return result;
-    for (const std::string_view field : fields) {
-        const std::size_t slips = distance(attribute, field);
-        if (slips < nearest && field.size() > slips + 1) {
-            nearest = slips;
-            result.suggestion = field;
-        }
-    }
-    return result;
+    if (!suggest || known == node_fields().end()) return {attribute, {}};
+    return {attribute, nearest_name(fields, attribute)};
 }
 
 }  // namespace nuvo::x3d

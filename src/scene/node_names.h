@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string_view>
+#include <vector>
 
 #include "messages.h"
 
@@ -55,6 +56,9 @@ struct FieldName {
     std::string_view suggestion;
 };
 FieldName find_field(std::string_view node, std::string_view attribute, bool suggest);
+
+/// The one of `names` from which `name` differs by a slip or two; empty where there is none.
+std::string_view nearest_name(const std::vector<std::string_view>& names, std::string_view name);
 
 /// Warns that a node is not drawn, unless its name is misspelt.
 void warn_not_drawn(const Element& element, Messages& messages);

@@ -1,8 +1,10 @@
 #include "prototypes.h"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
+#include "names.h"
 #include "node_names.h"
 
 namespace nuvo::x3d {
@@ -15,6 +17,7 @@ struct FieldContent {
     const Element* nodes = nullptr;  // their parent
     bool from_instance = false;      // else a default, whose names are those of the declaration
 };
+/// By the name of each field that the prototype has.
 using Contents = std::unordered_map<std::string_view, FieldContent>;
 
 class Copier {
@@ -49,12 +52,27 @@ class Copier {
         for (const Element& field : parent.children) {
             made_.take(1, 0, instance_);
             if (field.name != statement) continue;
+            const std::string_view name = field.text("name");
+            if (from_instance && !contents_.contains(name)) {
+                warn_of_no_field(instance_.text("name"), name, similar_field(name), field,
+                                 made_.messages);
+                continue;
+            }
+            FieldContent& kept = contents_[name];
             FieldContent content{field.find("value"), nullptr, from_instance};
             for (const Element& child : field.children)
                 if (!is_silent(child.name)) content.nodes = &field;
-            if (content.value != nullptr || content.nodes != nullptr)
-                contents_[field.text("name")] = content;
+            if (content.value != nullptr || content.nodes != nullptr) kept = content;
         }
+    }
+
+    std::string_view similar_field(std::string_view name) const {
+        constexpr std::size_t kMostNames = 100;
+        if (contents_.size() > kMostNames || !made_.may_suggest()) return {};
+        std::vector<std::string_view> names;
+        for (const auto& [field, content] : contents_) names.push_back(field);
+        std::sort(names.begin(), names.end());
+        return nearest_name(names, name);
     }
 
     static void append(Element* child, Element& parent, Element*& last) {
@@ -69,6 +87,7 @@ class Copier {
             made_.take(1, 0, instance_);
             const auto content = contents_.find(connect.text("protoField"));
             if (connect.name != "connect" || content == contents_.end()) continue;
+            if (content->second.value == nullptr && content->second.nodes == nullptr) continue;
             const std::string_view field = connect.text("nodeField");
             if (element.name == "ProtoInstance") {
                 append(field_value(field, content->second), element, last);
@@ -136,6 +155,23 @@ const Element* body_of(const Element& declaration) {
     for (const Element& part : declaration.children)
         if (part.name == "ProtoBody") return &part;
     return nullptr;
+}
+
+// Recursion as deep as the body.
+void check_connections(const Element& node, MadeElements& made) {
+    for (const Element& child : node.children) {
+        if (child.name != "IS" || node.name == "ProtoInstance") {  // its fields are its own
+            check_connections(child, made);
+            continue;
+        }
+        for (const Element& connect : child.children) {
+            const std::string_view field = connect.text("nodeField");
+            if (connect.name != "connect" || field.empty()) continue;
+            const FieldName found = find_field(node.name, field, made.may_suggest());
+            const std::string_view meant = found.name != field ? found.name : found.suggestion;
+            if (!meant.empty()) warn_of_no_field(node.name, field, meant, connect, made.messages);
+        }
+    }
 }
 
 void MadeElements::take(std::size_t more_elements, std::size_t more_attributes,

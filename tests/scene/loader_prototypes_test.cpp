@@ -45,6 +45,40 @@ TEST(LoaderPrototypes, FieldsHaveTheInstancesValueOrElseTheDefault) {
     EXPECT_TRUE(load(bare(kBall)).objects.empty());
 }
 
+TEST(LoaderPrototypes, FieldsThatThereAreNotAreAskedAfter) {
+    const std::string field =
+        "<field name='color' type='SFColor' accessType='inputOutput' "
+        "value='0 1 0'/>";
+    const auto tint = [&](const std::string& node_field) {
+        return declaration("Tint", field,
+                           "\n<Shape><Appearance><Material diffuseColor='0 0 1'>" +
+                               is(node_field, "color") +
+                               "</Material></Appearance><Sphere/></Shape>");
+    };
+    const auto given = [](const std::string& name) {
+        return "\n" + instance("Tint", "<fieldValue name='" + name + "' value='1 0 0'/>");
+    };
+    const Scene scene = load(bare(tint("difuseColor") + given("colour") + given("color") +
+                                  given("colour") + given("other")));
+    EXPECT_EQ(scene.materials.at(0).diffuse_color, (Color{0, 0, 1}));
+    ASSERT_EQ(scene.warnings.size(), 4u);  // the last: the balls have one place
+    EXPECT_EQ(
+        Strings(scene.warnings.begin(), scene.warnings.end() - 1),
+        (Strings{"Material@difuseColor: 1 left out, as there is no such field: did you mean "
+                 "diffuseColor? (first at Scene/ProtoDeclare/ProtoBody/Shape/Appearance/Material/"
+                 "IS/connect, line 2)",
+                 "Tint@colour: 2 left out, as there is no such field: did you mean color? (first "
+                 "at Scene/ProtoInstance[1]/fieldValue, line 3)",
+                 "Tint@other: 1 left out, as there is no such field (first at "
+                 "Scene/ProtoInstance[4]/fieldValue, line 6)"}));
+    EXPECT_EQ(load(bare(tint("diffuseColor") + given("colour"))).materials.at(0).diffuse_color,
+              (Color{0, 1, 0}));
+    EXPECT_EQ(refusal(bare(tint("diffuseColor") + given("colour"))),
+              "scene.x3d: Scene/ProtoInstance/fieldValue@colour: there is no such field: did you "
+              "mean color? (line 3)");
+    EXPECT_NE(refusal(bare(tint("difuseColor"))), "");
+}
+
 TEST(LoaderPrototypes, AnInstanceStandsForAnyKindOfNode) {
     const Scene scene = load(
         bare(declaration("Red",
