@@ -52,7 +52,7 @@ Contents count_contents(const Scene& scene) {
     return contents;
 }
 
-std::string light_line(const Light& light) {
+std::string light_line(const Light& light, std::size_t objects) {
     constexpr const char* kKinds[] = {"directional", "point", "spot"};
     std::string line = format("%-11s", light.casts_shadow ? "light" : "headlight") +
                        kKinds[static_cast<int>(light.kind)];
@@ -63,14 +63,14 @@ std::string light_line(const Light& light) {
     if (light.kind == Light::Kind::kSpot)
         line += format(", beam %.9g and cut-off %.9g degrees", degrees(light.beam_width),
                        degrees(light.cut_off_angle));
-    if (light.scope != LightScope{}) line += ", for its own group only";
+    if (light.scope.first > 0 || light.scope.last < objects) line += ", for its own group only";
     return line + "\n";
 }
 
 std::string lights_text(const Scene& scene) {
     std::string text = format("lights     %zu\n", scene.lights.size());
     for (std::size_t i = 0; i < scene.lights.size() && i < kShownLights; ++i)
-        text += light_line(scene.lights[i]);
+        text += light_line(scene.lights[i], scene.objects.size());
     if (scene.lights.size() > kShownLights)
         text += format("           and %zu more\n", scene.lights.size() - kShownLights);
     return text;
@@ -93,6 +93,7 @@ std::string background_text(const Background& background) {
     for (const Color& color : background.sky_color) text += " (" + triple(color) + ")";
     if (!background.ground_color.empty()) text += ", ground";
     for (const Color& color : background.ground_color) text += " (" + triple(color) + ")";
+    if (background.zenith != Vector3{0, 1, 0}) text += ", zenith " + triple(background.zenith);
     return text + "\n";
 }
 

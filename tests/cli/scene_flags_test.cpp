@@ -86,6 +86,26 @@ TEST_F(SceneFlags, TheViewpointIsChosenByNameOrNumber) {
     expect_refused({"--file=a", "--viewpoint="}, kUsage, {"--viewpoint"});
 }
 
+// A DirectionalLight lights its own group (19775-1, 17.2.1): for one of the Scene that is
+// everything.
+TEST_F(SceneFlags, DescribeTellsScopesThatAreLessThanTheScene) {
+    const std::string ball = "<Shape><Appearance><Material/></Appearance><Sphere/></Shape>";
+    const std::string moved = "<Transform translation='3 0 0'>" + ball;
+    const auto described = [&](const std::string& nodes) {
+        put("a.x3d", "<X3D version='3.3'><Scene>" + nodes + "</Scene></X3D>");
+        return run({"--file=a", "--describe"}).out;
+    };
+    const std::string own = ", for its own group only\n";
+    EXPECT_EQ(described("<DirectionalLight/>" + ball).find(own), std::string::npos);
+    EXPECT_NE(described(ball + moved + "<DirectionalLight/></Transform>").find(own),
+              std::string::npos);
+    EXPECT_NE(described(moved + "<DirectionalLight/></Transform>" + ball).find(own),
+              std::string::npos);
+    EXPECT_NE(described("<Transform rotation='1 0 0 3.141592653589793'><Background/></Transform>")
+                  .find("background sky (0 0 0), zenith 0 -1 1.2246468e-16\n"),
+              std::string::npos);
+}
+
 TEST_F(SceneFlags, DescribeSaysWhatWasReadAndDrawsNothing) {
     put("a.x3d",
         "<Scene><Viewpoint DEF='front'/><Viewpoint description='back'/><PointLight radius='7'/>"
