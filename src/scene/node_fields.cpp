@@ -105,7 +105,7 @@ const std::unordered_map<std::string_view, Fields>& node_fields() {
         put({"OrthoViewpoint"}, {"position orientation fieldOfView centerOfRotation description "
                                  "jump retainUserOffsets nearDistance farDistance zNear zFar "
                                  "viewAll navigationInfo"});
-        put({"Background"},
+        put({"Background", "TextureBackground"},
             {"skyColor skyAngle groundColor groundAngle backUrl bottomUrl frontUrl leftUrl "
              "rightUrl topUrl transparency bindTime isBound crossOrigin"});
         put({"NavigationInfo"},

@@ -142,6 +142,7 @@ NodeKind node_kind(std::string_view name) {
         {"SpotLight", NodeKind::kSpotLight},
         {"StaticGroup", NodeKind::kGroup},
         {"Switch", NodeKind::kSwitch},
+        {"TextureBackground", NodeKind::kBackground},
         {"ToggleGroup", NodeKind::kGroup},
         {"Transform", NodeKind::kTransform},
         {"Viewpoint", NodeKind::kViewpoint},

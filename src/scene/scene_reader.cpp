@@ -315,6 +315,8 @@ void SceneReader::read_viewpoint_node(const Element& node, Group& group) {
 void SceneReader::read_background_node(const Element& node, const Group& group) {
     if (has_background_ || inline_depth_ > 0) return;
     has_background_ = true;
+    for (const Element& child : node.children)  // a TextureBackground's pictures
+        if (!is_silent(child.kind())) warn_not_drawn(child, messages_);
     scene_.background = read_background(Fields(node, messages_), group.placement);
 }
 

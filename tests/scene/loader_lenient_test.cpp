@@ -293,6 +293,17 @@ TEST(LoaderLenient, FilesOfOtherFormatsAreNamed) {
     EXPECT_NE(refusal("#X3D V3.0 utf8\n").find("classic"), std::string::npos);
     EXPECT_NE(refusal("\xef\xbb\xbf \n{ \"X3D\": {} }").find("JSON"), std::string::npos);
     EXPECT_NE(refusal("<!DOCTYPE html><html/>").find("html page"), std::string::npos);
+    EXPECT_EQ(refusal("solid cube\nfacet normal 0 0 1\n"),
+              "scene.x3d: is STL, not X3D in XML: save it as X3D");
+    EXPECT_NE(refusal("ply\nformat ascii 1.0\n").find("is PLY"), std::string::npos);
+    EXPECT_NE(refusal("# a cube\n\n#\nmtllib a.mtl\nv 0 0 0\n").find("is OBJ"), std::string::npos);
+    EXPECT_NE(refusal("v 0 0 0\nv 1 0 0\n").find("is OBJ"), std::string::npos);
+    EXPECT_NE(refusal("\x89PNG\r\n").find("is a PNG picture"), std::string::npos);
+    const std::string header(80, ' ');
+    EXPECT_NE(
+        refusal(header + std::string("\2\0\0\0", 4) + std::string(100, '\0')).find("is binary STL"),
+        std::string::npos);
+    EXPECT_NE(refusal("# nothing else").find("text before the root"), std::string::npos);
 }
 
 }  // namespace

@@ -211,6 +211,18 @@ TEST(LoaderView, ReadsTheFirstBackground) {
     EXPECT_EQ(background.ground_angle, std::vector<double>{1.5});
 }
 
+TEST(LoaderView, ATextureBackgroundHasItsColors) {
+    const Scene scene =
+        load(bare("<TextureBackground skyColor='0 0 1 1 1 1' skyAngle='1' groundColor='0 1 0'>"
+                  "<ImageTexture containerField='frontTexture' url='a.png'/></TextureBackground>"
+                  "<Background skyColor='1 0 0'/>"));
+    EXPECT_EQ(scene.background.sky_color, (std::vector<Color>{{0, 0, 1}, {1, 1, 1}}));
+    EXPECT_EQ(scene.background.sky_angle, std::vector<double>{1});
+    EXPECT_EQ(scene.background.ground_color, (std::vector<Color>{{0, 1, 0}}));
+    EXPECT_EQ(scene.warnings, Strings{"ImageTexture: 1 not drawn (first at Scene/TextureBackground/"
+                                      "ImageTexture, line 1)"});
+}
+
 // 19775-1, 24.4.1: translations and scales of its ancestors have no effect, rotations have.
 TEST(LoaderView, BackgroundsAreTurnedByTheirAncestors) {
     const auto zenith = [](const std::string& outer, const std::string& inner) {
