@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <iostream>
 #include <optional>
 #include <system_error>
@@ -24,6 +25,8 @@ namespace nuvo::app {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* kSceneEndings[] = {".x3d", ".x3dz"};
 
 std::vector<fs::path> with_json(std::vector<fs::path> outputs, const Options& options) {
     if (options.json) outputs.emplace_back(*options.json);
@@ -297,16 +300,22 @@ fs::path find_scene(const std::string& name) {
     std::error_code ignored;
     const fs::path given = name;
     if (fs::exists(given, ignored) && !fs::is_directory(given, ignored)) return given;
-    fs::path with_ending = given;
-    with_ending += ".x3d";
-    if (fs::exists(with_ending, ignored)) return with_ending;
+    for (const char* ending : kSceneEndings) {
+        fs::path with_ending = given;
+        with_ending += ending;
+        if (fs::exists(with_ending, ignored)) return with_ending;
+    }
     if (fs::is_directory(given, ignored)) throw x3d::Error(name + ": file: is a folder");
-    throw x3d::Error(name + ": file: not found, with or without .x3d");
+    throw x3d::Error(name + ": file: not found, with or without .x3d or .x3dz");
 }
 
 fs::path picture_beside(const fs::path& scene) {
     fs::path picture = scene;
-    if (picture.extension() == ".x3d") picture.replace_extension();
+    std::string ending = picture.extension().string();
+    for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    if (ending == ".xml" || std::find(std::begin(kSceneEndings), std::end(kSceneEndings), ending) !=
+                                std::end(kSceneEndings))
+        picture.replace_extension();
     return picture += ".bmp";
 }
 

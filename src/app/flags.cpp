@@ -254,7 +254,7 @@ std::vector<Flag> thesis_flags() {
         std::to_string(Resolution().width) + "," + std::to_string(Resolution().height);
     return {
         {"file", "--file", "PATH", Options().file,
-         "the X3D scene, --file= may be left out, and so may .x3d; - reads standard input",
+         "the X3D scene, --file= may be left out, and so may .x3d or .x3dz; - reads standard input",
          [](Options& o, const std::string& v) { o.file = non_empty(v, "a file name"); }},
         {"rep", "--rep", "N", std::to_string(Options().repetitions),
          "build and trace N times and print the average; 1 to " + std::to_string(kMaxRepetitions),

@@ -140,9 +140,9 @@ std::vector<Ray> read_rays(const std::filesystem::path& path) {
     if (errno == ENOMEM) throw std::bad_alloc();
     if (!file.eof() || errno == EISDIR)
         throw RaysError(path.string() +
-                        ": line 1: cannot read: " + std::generic_category().message(errno));
+                        ": cannot read: " + std::generic_category().message(errno));
     if (text.size() < size)
-        throw RaysError(path.string() + ": line 1: cannot read: it ends after " +
+        throw RaysError(path.string() + ": cannot read: it ends after " +
                         std::to_string(text.size()) + " of its " + std::to_string(size) + " bytes");
     return parse_rays(text, path.string());
 }

@@ -222,7 +222,10 @@ TEST(Paths, ThePictureStandsBesideTheScene) {
     EXPECT_EQ(picture_beside("a/b.x3d"), "a/b.bmp");
     EXPECT_EQ(picture_beside("a/b.c.x3d"), "a/b.c.bmp");
     EXPECT_EQ(picture_beside("a/b"), "a/b.bmp");
-    EXPECT_EQ(picture_beside("a/b.xml"), "a/b.xml.bmp");
+    EXPECT_EQ(picture_beside("a/b.xml"), "a/b.bmp");
+    EXPECT_EQ(picture_beside("a/b.x3dz"), "a/b.bmp");
+    EXPECT_EQ(picture_beside("a/B.X3D"), "a/B.bmp");
+    EXPECT_EQ(picture_beside("a/b.txt"), "a/b.txt.bmp");
     EXPECT_EQ(picture_beside("b.x3d"), "b.bmp");
 }
 

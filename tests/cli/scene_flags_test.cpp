@@ -86,6 +86,17 @@ TEST_F(SceneFlags, TheViewpointIsChosenByNameOrNumber) {
     expect_refused({"--file=a", "--viewpoint="}, kUsage, {"--viewpoint"});
 }
 
+TEST_F(SceneFlags, ScenesAreFoundByTheirEndings) {
+    put("z.x3dz", "<Scene/>");
+    put("U.X3D", "<Scene/>");
+    for (const char* name : {"z", "z.x3dz", "U.X3D"})
+        EXPECT_EQ(run({name, "--rep=1", "--res=8,8", "--quiet"}).exit_code, 0) << name;
+    EXPECT_EQ(files(), (std::set<std::string>{"U.X3D", "U.bmp", "z.bmp", "z.x3dz"}));
+    expect_refused({"none", "--res=8,8"}, kRefused, {"not found, with or without .x3d or .x3dz"});
+    expect_refused({"z", "--rays=none.txt"}, kRefused,
+                   {"none.txt: cannot read: No such file or directory"});
+}
+
 // A DirectionalLight lights its own group (19775-1, 17.2.1): for one of the Scene that is
 // everything.
 TEST_F(SceneFlags, DescribeTellsScopesThatAreLessThanTheScene) {

@@ -32,11 +32,12 @@ ExitCode pixel_command(const Options& options);
 ExitCode describe_command(const Options& options);
 // All throw UsageError, x3d::Error, RaysError, image::WriteError and std::bad_alloc.
 
-/// The file that `--file` names: as given if there is a file of that name, else with .x3d appended.
-/// Throws x3d::Error where there is neither.
+/// The file that `--file` names: as given if there is a file of that name, else with .x3d or .x3dz
+/// appended. Throws x3d::Error where there is none.
 std::filesystem::path find_scene(const std::string& name);
 
-/// Where the picture of a scene goes when nobody says: beside it, .x3d replaced by .bmp.
+/// Where the picture of a scene goes when nobody says: beside it, with .bmp in place of
+/// .x3d, .x3dz or .xml.
 std::filesystem::path picture_beside(const std::filesystem::path& scene);
 
 /// Where the difference picture goes: "NAME-difference" beside the picture, with its ending; a
