@@ -1,10 +1,7 @@
 #include "convexity.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-
-#include "nuvo/math/parallel.h"
 
 namespace nuvo::x3d {
 
@@ -15,8 +12,8 @@ namespace {
 constexpr double kClearSine = 0x1p-10;
 constexpr double kSixDigits = 0x1p-20;
 
-/// True where a polygon is clearly not convex.
-bool is_concave(const Polygons& polygons, std::size_t i) {
+/// As is_concave(), without any plane.
+bool is_clearly_concave(const Polygons& polygons, std::size_t i) {
     const std::uint32_t begin = polygons.ends[i];
     const std::uint32_t count = polygons.ends[i + 1] - begin;
     const auto point = [&](std::uint32_t c) -> const Point3& {
@@ -59,7 +56,9 @@ bool is_concave(const Polygons& polygons, std::size_t i) {
 /// True where a quadrilateral is surely convex in one coordinate plane, which it is not nearly
 /// across: all its corners turn to one side.
 template <int X, int Y>
-bool is_convex_in_plane(const Point3& p, const Point3& q, const Point3& r, const Point3& s) {
+bool is_convex_quad(const Point3* points, const std::uint32_t* corners) {
+    const Point3 &p = points[corners[0]], &q = points[corners[1]];
+    const Point3 &r = points[corners[2]], &s = points[corners[3]];
     const double ax = q[X] - p[X], ay = q[Y] - p[Y];
     const double bx = r[X] - p[X], by = r[Y] - p[Y];
     const double cx = s[X] - p[X], cy = s[Y] - p[Y];
@@ -75,33 +74,50 @@ bool is_convex_in_plane(const Point3& p, const Point3& q, const Point3& r, const
     return std::fabs(area) > kClearSine * diagonals && (least > 0 || most < 0);
 }
 
-bool is_convex_quad(const Polygons& polygons, std::uint32_t begin, int plane) {
-    const std::uint32_t* corner = polygons.corners.data() + begin;
+/// The same of a polygon of more corners, which also goes round once: along X up and down once.
+template <int X, int Y>
+bool is_convex(const Point3* points, const std::uint32_t* corners, std::uint32_t count) {
+    const Point3* last = &points[corners[count - 1]];
+    double before_x = (*last)[X] - points[corners[count - 2]][X];
+    double before_y = (*last)[Y] - points[corners[count - 2]][Y];
+    std::uint32_t left = 0, right = 0, reversals = 0;
+    for (std::uint32_t c = 0; c < count; ++c) {
+        const Point3* const point = &points[corners[c]];
+        const double x = (*point)[X] - (*last)[X], y = (*point)[Y] - (*last)[Y];
+        const double turn = before_x * y - before_y * x;
+        const double doubt = kClearSine * (std::fabs(before_x) + std::fabs(before_y)) *
+                             (std::fabs(x) + std::fabs(y));
+        left += turn > doubt;
+        right += turn < -doubt;
+        reversals += (x > 0) != (before_x > 0);
+        before_x = x;
+        before_y = y;
+        last = point;
+    }
+    return reversals == 2 && (left == count || right == count);
+}
+
+bool is_convex(const Polygons& polygons, std::uint32_t begin, std::uint32_t count, int plane) {
     const Point3* const points = polygons.points.data();
-    const Point3 &p = points[corner[0]], &q = points[corner[1]];
-    const Point3 &r = points[corner[2]], &s = points[corner[3]];
-    return plane == 0   ? is_convex_in_plane<0, 1>(p, q, r, s)
-           : plane == 1 ? is_convex_in_plane<1, 2>(p, q, r, s)
-                        : is_convex_in_plane<2, 0>(p, q, r, s);
+    const std::uint32_t* const corners = polygons.corners.data() + begin;
+    if (count == 4)
+        return plane == 0   ? is_convex_quad<0, 1>(points, corners)
+               : plane == 1 ? is_convex_quad<1, 2>(points, corners)
+                            : is_convex_quad<2, 0>(points, corners);
+    return plane == 0   ? is_convex<0, 1>(points, corners, count)
+           : plane == 1 ? is_convex<1, 2>(points, corners, count)
+                        : is_convex<2, 0>(points, corners, count);
 }
 
 }  // namespace
 
-std::size_t count_concave(const Polygons& polygons, int threads) {
-    std::atomic<std::size_t> concave = 0;
-    for_each_part(threads, polygons.count(), [&](std::size_t begin, std::size_t end) {
-        int plane = 0;  // in which the quadrilateral before was convex
-        for (std::size_t i = begin; i < end; ++i) {
-            const std::uint32_t first = polygons.ends[i];
-            const std::uint32_t count = polygons.ends[i + 1] - first;
-            if (count < 4 || (count == 4 && is_convex_quad(polygons, first, plane))) continue;
-            bool convex = false;
-            for (int turn = 0; count == 4 && turn < 2 && !convex; ++turn)
-                convex = is_convex_quad(polygons, first, plane = (plane + 1) % 3);
-            if (!convex && is_concave(polygons, i)) ++concave;
-        }
-    });
-    return concave;
+bool is_concave(const Polygons& polygons, std::size_t i, int& plane) {
+    const std::uint32_t begin = polygons.ends[i];
+    const std::uint32_t count = polygons.ends[i + 1] - begin;
+    if (count < 4 || is_convex(polygons, begin, count, plane)) return false;
+    for (int other = 0; other < 2; ++other)
+        if (is_convex(polygons, begin, count, plane = (plane + 1) % 3)) return false;
+    return is_clearly_concave(polygons, i);
 }
 
 }  // namespace nuvo::x3d

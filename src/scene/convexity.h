@@ -6,9 +6,10 @@
 
 namespace nuvo::x3d {
 
-/// How many polygons are clearly not convex, seen along their area vector: they turn the other way
-/// at a corner, or go round more than once. What roundings of coordinates to six digits may have
-/// done is not counted. Takes time linear in the corners.
-std::size_t count_concave(const Polygons& polygons, int threads);
+/// True where polygon i is clearly not convex, seen along its area vector: it turns the other way
+/// at a corner, or goes round more than once. What roundings of coordinates to six digits may have
+/// done is not counted. Takes time linear in the corners, little where `plane`, 0 at first and kept
+/// from polygon to polygon, is a coordinate plane in which this one is convex, too.
+bool is_concave(const Polygons& polygons, std::size_t i, int& plane);
 
 }  // namespace nuvo::x3d

@@ -12,17 +12,21 @@ namespace {
 struct FaceNumbers {
     std::vector<std::uint32_t> face;  // per polygon: its number among all faces, short ones counted
     std::vector<std::uint32_t> entry;  // per corner: its place in coordIndex
+    std::size_t concave = 0;           // polygons that claim to be convex and are not
 };
 
 /// Reads coordIndex, where -1 ends each face. Faces of fewer than three corners are left out.
-FaceNumbers read_faces(MeshSource& source) {
+FaceNumbers read_faces(MeshSource& source, bool convex) {
     const Fields& fields = source.fields;
     Polygons& polygons = source.polygons;
     const Integers indices = fields.integers("coordIndex");
     source.budget.take(indices.size(), fields);
     FaceNumbers numbers;
+    polygons.corners.reserve(indices.size());
+    numbers.entry.reserve(indices.size());
     std::uint32_t face = 0;
     std::size_t begin = 0;
+    int plane = 0;
     for (std::size_t i = 0; i <= indices.size(); ++i) {
         if (i < indices.size() && indices[i] != -1) continue;
         if (i - begin >= 3) {
@@ -33,6 +37,7 @@ FaceNumbers read_faces(MeshSource& source) {
             }
             polygons.end_polygon();
             numbers.face.push_back(face);
+            if (convex && is_concave(polygons, polygons.count() - 1, plane)) ++numbers.concave;
         } else if (i > begin) {
             fields.warn("coordIndex", "with a face of fewer than three corners left out");
         }
@@ -138,21 +143,20 @@ void cut_polygons(MeshSource& source, std::string_view field) {
 void read_face_set(MeshSource& source) {
     const Fields& fields = source.fields;
     const double crease_angle = fields.number("creaseAngle", 0);
-    const FaceNumbers numbers = read_faces(source);
+    const bool convex = fields.boolean("convex", true);
+    const FaceNumbers numbers = read_faces(source, convex);
     const Spread normals{fields.boolean("normalPerVertex", true), fields.integers("normalIndex"),
                          &numbers.face, &numbers.entry};
     read_normals(source, normals);
     if (source.polygons.normals.values.empty() && normals.per_vertex) smooth(source, crease_angle);
     read_colors(source, {fields.boolean("colorPerVertex", true), fields.integers("colorIndex"),
                          &numbers.face, &numbers.entry});
-    if (!fields.boolean("convex", true))
-        cut_polygons(source, "coordIndex");
-    else if (const std::size_t concave = count_concave(source.polygons, fields.threads());
-             concave > 0)
+    if (!convex) cut_polygons(source, "coordIndex");
+    if (numbers.concave > 0)
         fields.warn("coordIndex",
                     "with a face that is not convex, which is undefined without convex='false', "
                     "drawn as a fan",
-                    concave);
+                    numbers.concave);
 }
 
 void read_triangle_set(MeshSource& source) {
