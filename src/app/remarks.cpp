@@ -17,21 +17,24 @@ std::uint32_t packed(const Rgb8& color) {
     return std::uint32_t{color.r} << 16 | std::uint32_t{color.g} << 8 | color.b;
 }
 
-// Pixels all over the picture, so that what shows somewhere is met soon: a prime beyond any side
-// visits each pixel once.
+// Pixels all over the picture, the middle first, so that what shows somewhere is met soon: a prime
+// beyond any side visits each pixel once.
 class Pixels {
   public:
     explicit Pixels(const Image& picture)
         : width_(static_cast<std::uint64_t>(picture.width())),
-          count_(width_ * static_cast<std::uint64_t>(picture.height())) {}
+          count_(width_ * static_cast<std::uint64_t>(picture.height())),
+          middle_(static_cast<std::uint64_t>(picture.height() / 2) * width_ + width_ / 2) {}
     std::uint64_t count() const { return count_; }
-    int x(std::uint64_t i) const { return static_cast<int>(i * kStride % count_ % width_); }
-    int y(std::uint64_t i) const { return static_cast<int>(i * kStride % count_ / width_); }
+    int x(std::uint64_t i) const { return static_cast<int>(place(i) % width_); }
+    int y(std::uint64_t i) const { return static_cast<int>(place(i) / width_); }
 
   private:
     static constexpr std::uint64_t kStride = 1'000'003;
+    std::uint64_t place(std::uint64_t i) const { return (middle_ + i * kStride) % count_; }
     std::uint64_t width_;
     std::uint64_t count_;
+    std::uint64_t middle_;
 };
 
 /// What the picture shows may be nothing but background, or nothing but what needs no light.
@@ -128,15 +131,15 @@ bool sees_back(const TriangleMesh& mesh, const Ray& ray) {
 /// round shapes are seen from within alone.)
 bool meets_backs(const Scene& scene, const Image& picture) {
     constexpr std::uint64_t kMostRays = 1 << 10;
-    constexpr std::uint64_t kMostTests = 1 << 22;
-    std::uint64_t triangles = 1;
+    constexpr std::uint64_t kMostTests = 1 << 23;
+    std::uint64_t items = scene.objects.size() + 1;
     for (const Object& object : scene.objects)
         if (const auto* mesh = std::get_if<TriangleMesh>(&object.shape))
-            triangles += mesh->triangles.size();
+            items += mesh->triangles.size();
     const RayGenerator generator(scene.camera, {picture.width(), picture.height()});
     const Pixels pixels(picture);
     const std::uint64_t rays =
-        std::min({pixels.count(), kMostRays, std::max<std::uint64_t>(kMostTests / triangles, 1)});
+        std::min({pixels.count(), kMostRays, std::max<std::uint64_t>(kMostTests / items, 1)});
     for (std::uint64_t i = 0; i < rays; ++i)
         for (const Object& object : scene.objects)
             if (const auto* mesh = std::get_if<TriangleMesh>(&object.shape);
