@@ -139,8 +139,7 @@ std::vector<Ray> read_rays(const std::filesystem::path& path) {
     if (std::filesystem::is_directory(path, ignored)) errno = EISDIR;
     if (errno == ENOMEM) throw std::bad_alloc();
     if (!file.eof() || errno == EISDIR)
-        throw RaysError(path.string() +
-                        ": cannot read: " + std::generic_category().message(errno));
+        throw RaysError(path.string() + ": cannot read: " + std::generic_category().message(errno));
     if (text.size() < size)
         throw RaysError(path.string() + ": cannot read: it ends after " +
                         std::to_string(text.size()) + " of its " + std::to_string(size) + " bytes");

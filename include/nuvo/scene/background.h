@@ -7,8 +7,8 @@
 namespace nuvo {
 
 /// X3D Background (ISO/IEC 19775-1 clause 24). Angles are radians: the sky's from the zenith, the
-/// ground's from the nadir; each list of angles has one entry fewer than its colours. Where the last
-/// of the ground's angles is less than pi / 2, the sky shows between it and the horizon.
+/// ground's from the nadir; each list of angles has one entry fewer than its colours. Where the
+/// last of the ground's angles is less than pi / 2, the sky shows between it and the horizon.
 struct Background {
     std::vector<Color> sky_color{{0, 0, 0}};
     std::vector<double> sky_angle;
