@@ -36,7 +36,7 @@ Scene SceneReader::read(const Document& document) {
 
 void SceneReader::warn_of_idle_lights() {
     std::vector<Bounds3> boxes;
-    std::size_t tests_left = 100'000'000;
+    std::size_t tests_left = 10'000'000;
     for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
         const Light& light = scene_.lights[i];
         const std::size_t last = std::min<std::size_t>(light.scope.last, scene_.objects.size());

@@ -124,8 +124,9 @@ std::vector<Color> read_rgba(const Fields& fields) {
 
 void VertexBudget::take(std::size_t count, const Fields& fields) {
     if (count > limit - used)
-        fields.refuse("", "the scene's meshes exceed the limit of " + std::to_string(limit) +
-                              " points, indices, normals and colors");
+        fields.refuse("", "the scene's meshes and round solids exceed the limit of " +
+                              std::to_string(limit) +
+                              " points, indices, normals and colors (--max-vertices)");
     used += count;
 }
 

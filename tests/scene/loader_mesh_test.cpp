@@ -139,9 +139,11 @@ TEST(LoaderMesh, VerticesAreLimitedAtTheLimitUsesCounted) {
     limits.vertices = 12;
     EXPECT_EQ(refusal(bare(nodes), limits), "");
     limits.vertices = 11;
-    EXPECT_EQ(refusal(bare(nodes), limits),
-              "scene.x3d: Scene/Group[1]/Shape/TriangleSet/Coordinate: the scene's meshes exceed "
-              "the limit of 11 points, indices, normals and colors (line 1)");
+    EXPECT_EQ(
+        refusal(bare(nodes), limits),
+        "scene.x3d: Scene/Group[1]/Shape/TriangleSet/Coordinate: the scene's meshes and round "
+        "solids exceed the limit of 11 points, indices, normals and colors (--max-vertices) "
+        "(line 1)");
 }
 
 }  // namespace
