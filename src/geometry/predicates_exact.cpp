@@ -27,26 +27,14 @@ ExactQuadratic quadratic_of(ExactVector f, ExactVector g, const Exact& r2) {
     return q;
 }
 
-struct ExactMatrix {
-    ExactVector row[3];
+}  // namespace
 
-    ExactVector operator*(const ExactVector& v) const {
-        return {dot(row[0], v), dot(row[1], v), dot(row[2], v)};
-    }
-};
-
-/// adj(M) = the transpose of the cofactors.
 ExactMatrix exact_adjugate(const Matrix3& m) {
     const ExactVector r0(m.row[0]);
     const ExactVector r1(m.row[1]);
     const ExactVector r2(m.row[2]);
-    const ExactVector c0 = cross(r1, r2);
-    const ExactVector c1 = cross(r2, r0);
-    const ExactVector c2 = cross(r0, r1);
-    return {{{c0.x, c1.x, c2.x}, {c0.y, c1.y, c2.y}, {c0.z, c1.z, c2.z}}};
+    return ExactMatrix{{cross(r1, r2), cross(r2, r0), cross(r0, r1)}}.transposed();
 }
-
-}  // namespace
 
 ExactQuadratic exact_quadratic(const ExactRay& ray, const Sphere& sphere) {
     const Exact radius(sphere.radius);
@@ -54,8 +42,8 @@ ExactQuadratic exact_quadratic(const ExactRay& ray, const Sphere& sphere) {
                         exact_direction(ray), radius * radius);
 }
 
-ExactQuadratic exact_quadratic(const ExactRay& ray, const Ellipsoid& ellipsoid) {
-    const ExactMatrix adjugate = exact_adjugate(ellipsoid.linear);
+ExactQuadratic exact_quadratic(const ExactRay& ray, const Ellipsoid& ellipsoid,
+                               const ExactMatrix& adjugate) {
     const ExactVector first_column{adjugate.row[0].x, adjugate.row[1].x, adjugate.row[2].x};
     const Exact r =
         dot(ExactVector(ellipsoid.linear.row[0]), first_column) * Exact(ellipsoid.radius);
@@ -64,21 +52,20 @@ ExactQuadratic exact_quadratic(const ExactRay& ray, const Ellipsoid& ellipsoid) 
 }
 
 // With |delta| <= e per component: | |f + delta|^2 - |f|^2 | <= 2 e |f|_1 + 3 e^2.
-Exact exact_touch_band(const ExactRay& ray, const Sphere& sphere, double origin_error) {
-    const ExactVector f = ExactVector(ray.origin()) - ExactVector(sphere.center);
+Exact exact_touch_band(const ExactQuadratic& q, const Sphere&, double origin_error) {
     const Exact e(origin_error);
-    return e * (Exact(2) * (abs(f.x) + abs(f.y) + abs(f.z)) + Exact(3) * e);
+    return e * (Exact(2) * (abs(q.f.x) + abs(q.f.y) + abs(q.f.z)) + Exact(3) * e);
 }
 
 // adj(M) turns delta into at most e rho_i, rho_i = the sum of |row i|: 2 e rho.|F| + e^2 rho.rho.
-Exact exact_touch_band(const ExactRay& ray, const Ellipsoid& ellipsoid, double origin_error) {
+Exact exact_touch_band(const ExactQuadratic& q, const Ellipsoid& ellipsoid, double origin_error) {
     const ExactMatrix adjugate = exact_adjugate(ellipsoid.linear);
-    const ExactVector f = adjugate * (ExactVector(ray.origin()) - ExactVector(ellipsoid.center));
     ExactVector rho;
     for (int i = 0; i < 3; ++i)
         rho[i] = abs(adjugate.row[i].x) + abs(adjugate.row[i].y) + abs(adjugate.row[i].z);
     const Exact e(origin_error);
-    return e * (Exact(2) * dot(rho, ExactVector(abs(f.x), abs(f.y), abs(f.z))) + e * dot(rho, rho));
+    const ExactVector size(abs(q.f.x), abs(q.f.y), abs(q.f.z));
+    return e * (Exact(2) * dot(rho, size) + e * dot(rho, rho));
 }
 
 Root root_from(const WideDouble& t) {
@@ -136,14 +123,6 @@ Vec3<WideDouble> at_root(const ExactQuadratic& q, SphereRoot which, const ExactV
         const WideDouble across = (q.a * p[i] - q.b * r[i]).approximate();
         result[i] = (across + side * r[i].approximate()) / a;
     }
-    return result;
-}
-
-ExactVector exact_gradient(const Ellipsoid& ellipsoid, const ExactVector& v) {
-    const ExactMatrix m = exact_adjugate(ellipsoid.linear);
-    ExactVector result;
-    for (int i = 0; i < 3; ++i)
-        result[i] = m.row[0][i] * v.x + m.row[1][i] * v.y + m.row[2][i] * v.z;
     return result;
 }
 

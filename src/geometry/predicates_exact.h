@@ -35,12 +35,31 @@ struct ExactQuadratic {
 };
 /// f = o - centre, g = d.
 ExactQuadratic exact_quadratic(const ExactRay& ray, const Sphere& sphere);
+
+struct ExactMatrix {
+    ExactVector row[3];
+
+    ExactVector operator*(const ExactVector& v) const {
+        return {dot(row[0], v), dot(row[1], v), dot(row[2], v)};
+    }
+    ExactMatrix transposed() const {
+        return {{{row[0].x, row[1].x, row[2].x},
+                 {row[0].y, row[1].y, row[2].y},
+                 {row[0].z, row[1].z, row[2].z}}};
+    }
+};
+/// adj(M) = the transpose of the cofactors.
+ExactMatrix exact_adjugate(const Matrix3& m);
 /// f = adj(M) (o - centre), g = adj(M) d, r2 = (det(M) R)^2.
-ExactQuadratic exact_quadratic(const ExactRay& ray, const Ellipsoid& ellipsoid);
+ExactQuadratic exact_quadratic(const ExactRay& ray, const Ellipsoid& ellipsoid,
+                               const ExactMatrix& adjugate);
+inline ExactQuadratic exact_quadratic(const ExactRay& ray, const Ellipsoid& ellipsoid) {
+    return exact_quadratic(ray, ellipsoid, exact_adjugate(ellipsoid.linear));
+}
 
 /// What a change of the origin by `origin_error` per component can add to |c|.
-Exact exact_touch_band(const ExactRay& ray, const Sphere& sphere, double origin_error);
-Exact exact_touch_band(const ExactRay& ray, const Ellipsoid& ellipsoid, double origin_error);
+Exact exact_touch_band(const ExactQuadratic& q, const Sphere& sphere, double origin_error);
+Exact exact_touch_band(const ExactQuadratic& q, const Ellipsoid& ellipsoid, double origin_error);
 
 std::optional<SphereHit> exact_hit(const ExactQuadratic& q, Sides sides);
 /// What the origin has to do with the surface: it stands for a point of it, it may, or it does not.
@@ -55,8 +74,6 @@ bool exact_blocks(const ExactQuadratic& q, double end, OriginPlace place, Sides 
 /// p + t r at the root, to a few roundoffs of p's and r's shares (p - b / a r and sqrt(D) / a r).
 Vec3<WideDouble> at_root(const ExactQuadratic& q, SphereRoot which, const ExactVector& p,
                          const ExactVector& r);
-/// adj(M)^T v: half the gradient of |adj(M) x|^2 where v = adj(M) x.
-ExactVector exact_gradient(const Ellipsoid& ellipsoid, const ExactVector& v);
 /// Unit vector along v, whose components may be of any magnitude.
 Vector3 unit(const Vec3<WideDouble>& v);
 

@@ -11,13 +11,13 @@ Ellipsoid as_ellipsoid(const Sphere& sphere) { return {sphere.center, Matrix3{},
 const Ellipsoid& as_ellipsoid(const Ellipsoid& ellipsoid) { return ellipsoid; }
 
 double norm(const Vector3& v) { return std::sqrt(dot(v, v)) * (1 + gamma(4)); }
-double size(const Matrix3& m) {
+double size(const Rows<double>& m) {
     return std::sqrt(dot(m.row[0], m.row[0]) + dot(m.row[1], m.row[1]) + dot(m.row[2], m.row[2])) *
            (1 + gamma(8));
 }
 
 /// v / d.
-BoundedVector quotient(const BoundedVector& v, const Bounded<double>& d) {
+BoundedVector<double> quotient(const BoundedVector<double>& v, const Bounded<double>& d) {
     const double left = std::fabs(d.value) - d.error;
     const Vector3 value = v.value * (1 / d.value);
     const double error = (v.error + norm(value) * (d.error + gamma(4) * std::fabs(d.value))) /
@@ -27,31 +27,32 @@ BoundedVector quotient(const BoundedVector& v, const Bounded<double>& d) {
 }
 
 /// s of the root, on a's unit sphere times its radius.
-BoundedVector on_sphere(const ExactRay& ray, const Sphere& sphere, SphereRoot which) {
-    const RoundedOffset at = rounded_offset(rounded_quadratic(ray, sphere), which);
+BoundedVector<double> on_sphere(const ExactRay& ray, const Sphere& sphere, SphereRoot which) {
+    const RoundedOffset<double> at = rounded_offset(rounded_quadratic(ray, sphere), which);
     return {at.offset, at.error};
 }
-BoundedVector on_sphere(const ExactRay& ray, const Ellipsoid& ellipsoid, SphereRoot which) {
-    const RoundedOffset at = rounded_offset(rounded_quadratic(ray, ellipsoid), which);
-    const BoundedMatrix adjugate = bounded_adjugate(ellipsoid.linear);
+BoundedVector<double> on_sphere(const ExactRay& ray, const Ellipsoid& ellipsoid, SphereRoot which) {
+    const RoundedOffset<double> at = rounded_offset(rounded_quadratic(ray, ellipsoid), which);
+    const BoundedMatrix<double> adjugate = bounded_adjugate<double>(ellipsoid.linear);
     return quotient({at.offset, at.error}, determinant(ellipsoid.linear, adjugate));
 }
 
-std::optional<int> sure_order(const ExactRay& ray, const Ellipsoid& a, const BoundedVector& s,
-                              const Ellipsoid& b, SphereRoot which_b) {
-    const BoundedMatrix adjugate = bounded_adjugate(b.linear);
+std::optional<int> sure_order(const ExactRay& ray, const Ellipsoid& a,
+                              const BoundedVector<double>& s, const Ellipsoid& b,
+                              SphereRoot which_b) {
+    const BoundedMatrix<double> adjugate = bounded_adjugate<double>(b.linear);
     const Bounded<double> det = determinant(b.linear, adjugate);
     // The point of a, from b's centre, is b.linear (s + w) with w = b.linear^-1 v.
-    Matrix3 change = a.linear;
+    Rows<double> change = rows_of<double>(a.linear);
     for (int i = 0; i < 3; ++i) change.row[i] = change.row[i] - b.linear.row[i];
     const Vector3 shift = a.center - b.center;
     const Vector3 v = change * s.value + shift;
     const double change_size = size(change);
     const double v_error = gamma(6) * (change_size * norm(s.value) + norm(shift)) * 2 +
                            change_size * s.error + 16 * kUnderflow;
-    BoundedVector numerator = product(adjugate, v);
+    BoundedVector<double> numerator = product(adjugate, v);
     numerator.error += size(adjugate.magnitude) * v_error * (1 + gamma(8));
-    const BoundedVector w = quotient(numerator, det);
+    const BoundedVector<double> w = quotient(numerator, det);
     // |s + w|^2 - b's radius^2, where |s| is a's radius: > 0 outside of b.
     const double s_norm = norm(s.value);
     const double w_norm = norm(w.value);
@@ -64,7 +65,7 @@ std::optional<int> sure_order(const ExactRay& ray, const Ellipsoid& a, const Bou
     if (!(std::fabs(power) > power_error)) return std::nullopt;
     if (power < 0) return which_b == SphereRoot::kNear ? 1 : -1;  // between the roots of b
     // (s + w) . (b.linear^-1 d): < 0 before both roots of b.
-    const BoundedVector h = quotient(product(adjugate, ray.direction()), det);
+    const BoundedVector<double> h = quotient(product(adjugate, ray.direction()), det);
     const Vector3 from_b = s.value + w.value;
     const double h_norm = norm(h.value);
     const double slope = dot(from_b, h.value);

@@ -66,7 +66,7 @@ Worst worst_of(const ExactRay& ray, const Ellipsoid& e) {
 struct Bounds {
     Tightness a{"a"}, b{"b"}, c{"c"}, depth{"depth"}, offset{"offset"};
 
-    void add(const detail::RoundedQuadratic& q, const Worst& w) {
+    void add(const detail::RoundedQuadratic<double>& q, const Worst& w) {
         a.add(q.a_relative * q.a, w.a.error());
         b.add(q.b_error, w.b.error());
         c.add(q.c_error, w.c.error());
@@ -176,7 +176,7 @@ TEST(QuadraticBounds, OfEllipsoidsAreAtLeastTheWorstRoundings) {
         if (draw.below(2) != 0) l = {m * l.f, m * l.d, l.radius};
         const ExactRay ray = ray_of(draw, l);
         const Ellipsoid ellipsoid{center(draw), m, l.radius};
-        const detail::RoundedQuadratic q = detail::rounded_quadratic(ray, ellipsoid);
+        const detail::RoundedQuadratic<double> q = detail::rounded_quadratic(ray, ellipsoid);
         if (std::isnan(q.b_error)) continue;
         ++judged;
         bounds.add(q, worst_of(ray, ellipsoid));
@@ -198,11 +198,12 @@ TEST(QuadraticBounds, DecideNothingOutOfRange) {
     const Matrix3 one;
     const auto known = [&](double f, double d, double radius) {
         const ExactRay ray(Ray{{f, f, f}, {d, d, d}});
-        const detail::RoundedQuadratic sphere = detail::rounded_quadratic(ray, Sphere{{}, radius});
-        const detail::RoundedQuadratic ellipsoid =
+        const detail::RoundedQuadratic<double> sphere =
+            detail::rounded_quadratic(ray, Sphere{{}, radius});
+        const detail::RoundedQuadratic<double> ellipsoid =
             detail::rounded_quadratic(ray, Ellipsoid{{}, one, radius});
         SphereHit hit;
-        for (const detail::RoundedQuadratic& q : {sphere, ellipsoid})
+        for (const detail::RoundedQuadratic<double>& q : {sphere, ellipsoid})
             if (std::isnan(q.b_error)) {
                 EXPECT_EQ(detail::rounded_hit(q, Sides::kBoth, hit), detail::Decision::kUnsure);
                 EXPECT_EQ(detail::rounded_blocks(q, 1, {0, 0}, false, Sides::kBoth),

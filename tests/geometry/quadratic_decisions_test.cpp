@@ -14,7 +14,7 @@ namespace {
 
 using detail::Decision;
 using detail::OriginPlace;
-using detail::RoundedQuadratic;
+using RoundedQuadratic = detail::RoundedQuadratic<double>;
 using Real = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<80>,
                                            boost::multiprecision::et_off>;
 using worst_case::Draw;
