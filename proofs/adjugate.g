@@ -1,5 +1,6 @@
-# [numerics: ellipsoids] product() and radius_error in src/geometry/predicates_ellipsoid.cpp: one
-# term adj_ij v_j = (p q - r s) v_j over its computed magnitudes.
+# [numerics: ellipsoids] product() in src/geometry/predicates_quadratic.h, local_radius() and
+# component_errors() in predicates_ellipsoid.cpp: one term adj_ij v_j = (p q - r s) v_j over its
+# computed magnitudes.
 n = 8;  # constant, step -1: gamma(n)
 u = 1b-53;
 gamma = n * u / (1 - n * u);

@@ -6,7 +6,7 @@ namespace {
 
 /// det(M) R.
 template <typename T>
-Bounded<T> local_radius(const Ellipsoid& ellipsoid, const BoundedMatrix<T>& adjugate) {
+inline Bounded<T> local_radius(const Ellipsoid& ellipsoid, const BoundedMatrix<T>& adjugate) {
     const Bounded<T> det = determinant(ellipsoid.linear, adjugate);
     const T radius = det.value * ellipsoid.radius;
     return {radius, det.error * ellipsoid.radius * (1 + gamma_of<T>(4)) +

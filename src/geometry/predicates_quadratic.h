@@ -146,7 +146,7 @@ struct Rows {
     Rows transposed() const { return {{column(0), column(1), column(2)}}; }
 };
 template <typename T>
-Rows<T> rows_of(const Matrix3& m) {
+inline Rows<T> rows_of(const Matrix3& m) {
     return {{Vec3<T>(m.row[0]), Vec3<T>(m.row[1]), Vec3<T>(m.row[2])}};
 }
 
@@ -157,18 +157,18 @@ struct BoundedMatrix {
 };
 
 template <typename T>
-BoundedMatrix<T> bounded_adjugate(const Matrix3& matrix) {
-    const Rows<T> m = rows_of<T>(matrix);
-    const Rows<T> cofactors{
-        {cross(m.row[1], m.row[2]), cross(m.row[2], m.row[0]), cross(m.row[0], m.row[1])}};
-    const Rows<T> magnitudes{{cross_magnitude(m.row[1], m.row[2]),
-                              cross_magnitude(m.row[2], m.row[0]),
-                              cross_magnitude(m.row[0], m.row[1])}};
+inline BoundedMatrix<T> bounded_adjugate(const Matrix3& m) {
+    const Vec3<T> r0(m.row[0]);
+    const Vec3<T> r1(m.row[1]);
+    const Vec3<T> r2(m.row[2]);
+    const Rows<T> cofactors{{cross(r1, r2), cross(r2, r0), cross(r0, r1)}};
+    const Rows<T> magnitudes{
+        {cross_magnitude(r1, r2), cross_magnitude(r2, r0), cross_magnitude(r0, r1)}};
     return {cofactors.transposed(), magnitudes.transposed()};
 }
 
 template <typename T>
-Bounded<T> determinant(const Matrix3& m, const BoundedMatrix<T>& adjugate) {
+inline Bounded<T> determinant(const Matrix3& m, const BoundedMatrix<T>& adjugate) {
     const Vec3<T> row(m.row[0]);
     return {dot(row, adjugate.value.column(0)),
             gamma_of<T>(8) * dot(magnitude(row), adjugate.magnitude.column(0)) +
@@ -184,7 +184,7 @@ struct BoundedVector {
 
 /// m * v for v known within a roundoff: 2 (m) + 1 (v) + 3 (dot product) roundings, and underflow.
 template <typename T>
-BoundedVector<T> product(const BoundedMatrix<T>& m, const Vec3<T>& v) {
+inline BoundedVector<T> product(const BoundedMatrix<T>& m, const Vec3<T>& v) {
     return {m.value * v, gamma_of<T>(8) * sum(m.magnitude * magnitude(v)) +
                              64 * underflow_of<T>() * (norm1(v) + 1)};
 }
