@@ -48,9 +48,10 @@ LeafHistogram histogram(const CompactOctree& octree) {
                         node.item_count());
             continue;
         }
-        node.for_each_child(box, [&](std::uint32_t child, const Bounds3T<float>& its_box) {
-            open.push_back({child, level + 1, its_box});
-        });
+        node.for_each_child(
+            box, [&, deeper = level + 1](std::uint32_t child, const Bounds3T<float>& its_box) {
+                open.push_back({child, deeper, its_box});
+            });
     }
     return all;
 }
