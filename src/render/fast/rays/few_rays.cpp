@@ -43,7 +43,11 @@ RayAnswer FewRays::closest_hit(const Ray& ray) {
     spent_ += kBoxesOfRay;
     const auto reach = static_cast<float>(scene_.reach());
     const LocalRay local(ray, scene_.frame(), reach);
-    if (!local.valid) {
+    Bounds3 all;
+    for (const KindSummary& kind : scene_.primitives().kinds) all = all.extended(kind.box);
+    if (slabs.surely_missed(all, std::numeric_limits<double>::infinity())) {
+        // Nothing is met.
+    } else if (!local.valid) {
         for (Slot slot = 0; slot < scene_.slot_end(); ++slot) test(slot);
     } else {
         SegmentWalk walk({local.origin[0], local.origin[1], local.origin[2]},

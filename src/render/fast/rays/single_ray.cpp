@@ -5,7 +5,8 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <numeric>
+
+#include "leaf_boxes.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "fast/rays/single_ray.cpp"
@@ -37,6 +38,12 @@ HWY_AFTER_NAMESPACE();
 #include "fast/simd/dispatch.h"
 
 namespace nuvo {
+namespace {
+
+// A candidate of the exact fallback costs so many tests.
+constexpr std::uint64_t kTestsOfCandidate = 4;
+
+}  // namespace
 
 SingleRays::SingleRays(const FastScene& scene, InstructionSet isa)
     : scene_(scene),
@@ -75,7 +82,6 @@ std::vector<RayAnswer> SingleRays::closest_hits(std::span<const Ray> rays, Progr
 std::optional<RayCandidate> SingleRays::decide(const Ray& ray, const RayLanes& lanes,
                                                std::size_t lane,
                                                std::span<const RayCandidate> candidates) {
-    constexpr std::uint64_t kTestsOfCandidate = 4;
     tests_ += kTestsOfCandidate * candidates.size();
     std::array<Slot, RayState::kMaxCandidates> slots;
     std::size_t count = 0;
@@ -237,11 +243,27 @@ void SingleRays::answer(std::span<const Ray> rays, const Slot* found, RayAnswer*
 }
 
 Slot SingleRays::brute_force(const Ray& ray) {
-    tests_ += scene_.slot_end();
-    std::vector<Slot> slots(scene_.slot_end());
-    std::iota(slots.begin(), slots.end(), Slot{0});
-    const auto nearest = exactly_nearest_of(ray, slots);
-    return nearest ? nearest->slot : kNoSlot;
+    const ExactRay prepared = kernel_.prepare(ray);
+    const Slabs slabs(prepared);
+    std::optional<Kernel::Hit> best;
+    Slot nearest = kNoSlot;
+    const auto end = [&] {
+        return best ? best->root.high : std::numeric_limits<double>::infinity();
+    };
+    Bounds3 all;
+    for (const KindSummary& kind : scene_.primitives().kinds) all = all.extended(kind.box);
+    if (slabs.surely_missed(all, end())) return kNoSlot;
+    for (Slot slot = 0; slot < scene_.slot_end(); ++slot) {
+        ++tests_;
+        const PrimitiveId id = scene_.id(slot);
+        if (slabs.surely_missed(scene_.primitives().item_boxes[id], end())) continue;
+        tests_ += kTestsOfCandidate;
+        const auto hit = kernel_.hit_of(prepared, id);
+        if (!hit || (best && !kernel_.precedes(prepared, *hit, *best))) continue;
+        best = hit;
+        nearest = slot;
+    }
+    return nearest;
 }
 
 }  // namespace nuvo
