@@ -29,13 +29,6 @@ ExactQuadratic quadratic_of(ExactVector f, ExactVector g, const Exact& r2) {
 
 }  // namespace
 
-ExactMatrix exact_adjugate(const Matrix3& m) {
-    const ExactVector r0(m.row[0]);
-    const ExactVector r1(m.row[1]);
-    const ExactVector r2(m.row[2]);
-    return ExactMatrix{{cross(r1, r2), cross(r2, r0), cross(r0, r1)}}.transposed();
-}
-
 ExactQuadratic exact_quadratic(const ExactRay& ray, const Sphere& sphere) {
     const Exact radius(sphere.radius);
     return quadratic_of(ExactVector(ray.origin()) - ExactVector(sphere.center),
@@ -44,9 +37,8 @@ ExactQuadratic exact_quadratic(const ExactRay& ray, const Sphere& sphere) {
 
 ExactQuadratic exact_quadratic(const ExactRay& ray, const Ellipsoid& ellipsoid,
                                const ExactMatrix& adjugate) {
-    const ExactVector first_column{adjugate.row[0].x, adjugate.row[1].x, adjugate.row[2].x};
     const Exact r =
-        dot(ExactVector(ellipsoid.linear.row[0]), first_column) * Exact(ellipsoid.radius);
+        dot(ExactVector(ellipsoid.linear.row[0]), adjugate.column(0)) * Exact(ellipsoid.radius);
     return quadratic_of(adjugate * (ExactVector(ray.origin()) - ExactVector(ellipsoid.center)),
                         adjugate * exact_direction(ray), r * r);
 }

@@ -2,6 +2,7 @@
 
 #include "nuvo/geometry/predicates.h"
 #include "nuvo/math/exact.h"
+#include "rows.h"
 
 /// The last stage: the definitions, written in exact arithmetic. Internal to the predicates.
 namespace nuvo::detail {
@@ -36,20 +37,10 @@ struct ExactQuadratic {
 /// f = o - centre, g = d.
 ExactQuadratic exact_quadratic(const ExactRay& ray, const Sphere& sphere);
 
-struct ExactMatrix {
-    ExactVector row[3];
-
-    ExactVector operator*(const ExactVector& v) const {
-        return {dot(row[0], v), dot(row[1], v), dot(row[2], v)};
-    }
-    ExactMatrix transposed() const {
-        return {{{row[0].x, row[1].x, row[2].x},
-                 {row[0].y, row[1].y, row[2].y},
-                 {row[0].z, row[1].z, row[2].z}}};
-    }
-};
-/// adj(M) = the transpose of the cofactors.
-ExactMatrix exact_adjugate(const Matrix3& m);
+using ExactMatrix = Rows<Exact>;
+inline ExactMatrix exact_adjugate(const Matrix3& m) {
+    return adjugate_of(ExactVector(m.row[0]), ExactVector(m.row[1]), ExactVector(m.row[2]));
+}
 /// f = adj(M) (o - centre), g = adj(M) d, r2 = (det(M) R)^2.
 ExactQuadratic exact_quadratic(const ExactRay& ray, const Ellipsoid& ellipsoid,
                                const ExactMatrix& adjugate);

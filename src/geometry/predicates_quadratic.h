@@ -134,17 +134,6 @@ struct RoundedOffset {
 template <typename T>
 RoundedOffset<T> rounded_offset(const RoundedQuadratic<T>& q, SphereRoot which);
 
-/// A 3 x 3 matrix by rows.
-template <typename T>
-struct Rows {
-    Vec3<T> row[3];
-
-    Vec3<T> column(int i) const { return {row[0][i], row[1][i], row[2][i]}; }
-    Vec3<T> operator*(const Vec3<T>& v) const {
-        return {dot(row[0], v), dot(row[1], v), dot(row[2], v)};
-    }
-    Rows transposed() const { return {{column(0), column(1), column(2)}}; }
-};
 template <typename T>
 inline Rows<T> rows_of(const Matrix3& m) {
     return {{Vec3<T>(m.row[0]), Vec3<T>(m.row[1]), Vec3<T>(m.row[2])}};
@@ -161,10 +150,9 @@ inline BoundedMatrix<T> bounded_adjugate(const Matrix3& m) {
     const Vec3<T> r0(m.row[0]);
     const Vec3<T> r1(m.row[1]);
     const Vec3<T> r2(m.row[2]);
-    const Rows<T> cofactors{{cross(r1, r2), cross(r2, r0), cross(r0, r1)}};
     const Rows<T> magnitudes{
         {cross_magnitude(r1, r2), cross_magnitude(r2, r0), cross_magnitude(r0, r1)}};
-    return {cofactors.transposed(), magnitudes.transposed()};
+    return {adjugate_of(r0, r1, r2), magnitudes.transposed()};
 }
 
 template <typename T>

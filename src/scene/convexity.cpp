@@ -28,7 +28,7 @@ bool is_clearly_concave(const Polygons& polygons, std::size_t i) {
     const double blur = 2 * kSixDigits * (place / size);
     const Vector3 area = area_vector(polygons, i);
     const Vector3 normal = normalized(area);
-    const Vector3 slant{std::fabs(area.x), std::fabs(area.y), std::fabs(area.z)};
+    const Vector3 slant = magnitude(area);
     // An axis across the normal: along it, too, a convex polygon goes up once and down once.
     const int axis = slant.x > slant.y ? (slant.x > slant.z ? 1 : 0) : (slant.y > slant.z ? 2 : 0);
     double turns = 0;

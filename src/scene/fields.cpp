@@ -286,10 +286,13 @@ void Fields::warn_clamped(std::string_view name, Range range) const {
         warn(name, "clamped to " + shown(range.low) + ".." + shown(range.high));
 }
 
-double Fields::clamped_number(std::string_view name, double fallback, Range range) const {
-    const double value = number(name, fallback);
+double Fields::clamped(std::string_view name, double value, Range range) const {
     if (range.is_beyond(value)) warn_clamped(name, range);
     return range.nearest(value);
+}
+
+double Fields::clamped_number(std::string_view name, double fallback, Range range) const {
+    return clamped(name, number(name, fallback), range);
 }
 
 Vector3 Fields::clamped_vector(std::string_view name, const Vector3& fallback, Range range) const {
@@ -301,10 +304,7 @@ Vector3 Fields::clamped_vector(std::string_view name, const Vector3& fallback, R
 
 Numbers Fields::clamped_numbers(std::string_view name, Range range) const {
     Numbers values = numbers(name);
-    for (double& value : values) {
-        if (range.is_beyond(value)) warn_clamped(name, range);
-        value = range.nearest(value);
-    }
+    for (double& value : values) value = clamped(name, value, range);
     return values;
 }
 

@@ -119,6 +119,8 @@ class Fields {
     /// The field's numbers without an incomplete last one of `size` numbers each.
     Numbers whole(std::string_view name, std::size_t size, const char* plural,
                   const char* single) const;
+    /// The nearest number in the range, warned of where it is another.
+    double clamped(std::string_view name, double value, Range range) const;
     void warn_clamped(std::string_view name, Range range) const;
 
     const Element& element_;

@@ -1,6 +1,5 @@
 #include "lights.h"
 
-#include <algorithm>
 #include <limits>
 #include <numbers>
 
@@ -74,12 +73,9 @@ std::optional<PlacedLight> read_light(Light::Kind kind, const Fields& fields,
 }
 
 bool may_reach(const Light& light, const Bounds3& box) {
-    Vector3 gap;  // from the location to the box
-    for (int axis = 0; axis < 3; ++axis)
-        gap[axis] = std::max(
-            {box.min[axis] - light.location[axis], 0.0, light.location[axis] - box.max[axis]});
+    const Point3 nearest = min(max(light.location, box.min), box.max);
     constexpr double kRoundings = 1 + 1e-9;
-    return length(gap) <= light.radius * kRoundings;
+    return length(nearest - light.location) <= light.radius * kRoundings;
 }
 
 }  // namespace nuvo::x3d

@@ -73,6 +73,7 @@ static_assert(sizeof(PixelBox) == 16);
 inline constexpr PixelBox kNoPixels{};
 /// Pictures whose sides are longer get boxes that rule nothing out.
 inline constexpr int kMostBoxPixels = 65535;
+
 /// Of the spheres and ellipsoids; made anew for each picture.
 class CameraTables {
   public:

@@ -2,9 +2,9 @@
 
 #include <limits>
 
+#include "fast/rays/nearest_hit.h"
 #include "fast/shadow/segment_walk.h"
 #include "fast/tile/local_ray.h"
-#include "leaf_boxes.h"
 
 namespace nuvo {
 namespace {
@@ -28,24 +28,11 @@ std::size_t FewRays::closest_hits(std::span<const Ray> rays, RayAnswer* answers)
 }
 
 RayAnswer FewRays::closest_hit(const Ray& ray) {
-    const ExactRay prepared = kernel_.prepare(ray);
-    const Slabs slabs(prepared);
-    std::optional<Kernel::Hit> best;
-    const auto test = [&](Slot slot) {
-        const PrimitiveId id = scene_.id(slot);
-        const double end = best ? best->root.high : std::numeric_limits<double>::infinity();
-        ++spent_;
-        if (slabs.surely_missed(scene_.primitives().item_boxes[id], end)) return;
-        spent_ += kBoxesOfTest;
-        const auto hit = kernel_.hit_of(prepared, id);
-        if (hit && (!best || kernel_.precedes(prepared, *hit, *best))) best = hit;
-    };
+    NearestHit nearest(scene_, kernel_, ray);
+    const auto test = [&](Slot slot) { spent_ += 1 + (nearest.test(slot) ? kBoxesOfTest : 0); };
     spent_ += kBoxesOfRay;
-    const auto reach = static_cast<float>(scene_.reach());
-    const LocalRay local(ray, scene_.frame(), reach);
-    Bounds3 all;
-    for (const KindSummary& kind : scene_.primitives().kinds) all = all.extended(kind.box);
-    if (slabs.surely_missed(all, std::numeric_limits<double>::infinity())) {
+    const LocalRay local(ray, scene_.frame(), static_cast<float>(scene_.reach()));
+    if (!nearest.may_meet_any()) {
         // Nothing is met.
     } else if (!local.valid) {
         for (Slot slot = 0; slot < scene_.slot_end(); ++slot) test(slot);
@@ -56,17 +43,18 @@ RayAnswer FewRays::closest_hit(const Ray& ray) {
         walk.any(scene_.octree(), [&](const Slot* slots, std::uint32_t count) {
             for (std::uint32_t i = 0; i < count; ++i) test(slots[i]);
             // Rounded up: a product, a difference, and the origin's own error.
-            if (best) {
-                const double beyond = best->root.high * local.scale;
+            if (nearest.best()) {
+                const double beyond = nearest.best()->root.high * local.scale;
                 walk.end_at(beyond - local.advance + gamma(4) * (beyond + local.advance) +
                             2 * local.error);
             }
             return false;
         });
     }
-    if (!best) return {.t = std::numeric_limits<double>::infinity()};
-    const PrimitiveSource& source = scene_.primitives().sources[best->primitive];
-    return {true, scene_.object(best->primitive).shape_index, source.triangle, best->root.t};
+    if (!nearest.best()) return {.t = std::numeric_limits<double>::infinity()};
+    const PrimitiveSource& source = scene_.source(nearest.slot());
+    return {true, scene_.scene().objects[source.object].shape_index, source.triangle,
+            nearest.best()->root.t};
 }
 
 }  // namespace nuvo

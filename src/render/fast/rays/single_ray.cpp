@@ -6,7 +6,7 @@
 #include <limits>
 #include <memory>
 
-#include "leaf_boxes.h"
+#include "fast/rays/nearest_hit.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "fast/rays/single_ray.cpp"
@@ -139,10 +139,9 @@ std::optional<SingleRays::Nearest> SingleRays::exactly_nearest_of(
     std::optional<Kernel::Hit> best;
     Slot nearest = kNoSlot;
     for (const Slot slot : slots) {
-        const auto hit = kernel_.hit_of(prepared, scene_.id(slot));
-        if (!hit || (best && !kernel_.precedes(prepared, *hit, *best))) continue;
-        best = hit;
-        nearest = slot;
+        const PrimitiveId id = scene_.id(slot);
+        kernel_.closest(prepared, {id, id + 1}, best);
+        if (best && best->primitive == id) nearest = slot;
     }
     if (!best) return std::nullopt;
     return Nearest{nearest, best->root.t};
@@ -243,27 +242,11 @@ void SingleRays::answer(std::span<const Ray> rays, const Slot* found, RayAnswer*
 }
 
 Slot SingleRays::brute_force(const Ray& ray) {
-    const ExactRay prepared = kernel_.prepare(ray);
-    const Slabs slabs(prepared);
-    std::optional<Kernel::Hit> best;
-    Slot nearest = kNoSlot;
-    const auto end = [&] {
-        return best ? best->root.high : std::numeric_limits<double>::infinity();
-    };
-    Bounds3 all;
-    for (const KindSummary& kind : scene_.primitives().kinds) all = all.extended(kind.box);
-    if (slabs.surely_missed(all, end())) return kNoSlot;
-    for (Slot slot = 0; slot < scene_.slot_end(); ++slot) {
-        ++tests_;
-        const PrimitiveId id = scene_.id(slot);
-        if (slabs.surely_missed(scene_.primitives().item_boxes[id], end())) continue;
-        tests_ += kTestsOfCandidate;
-        const auto hit = kernel_.hit_of(prepared, id);
-        if (!hit || (best && !kernel_.precedes(prepared, *hit, *best))) continue;
-        best = hit;
-        nearest = slot;
-    }
-    return nearest;
+    NearestHit nearest(scene_, kernel_, ray);
+    if (!nearest.may_meet_any()) return kNoSlot;
+    for (Slot slot = 0; slot < scene_.slot_end(); ++slot)
+        tests_ += 1 + (nearest.test(slot) ? kTestsOfCandidate : 0);
+    return nearest.slot();
 }
 
 }  // namespace nuvo

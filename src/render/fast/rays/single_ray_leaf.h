@@ -214,7 +214,7 @@ HWY_INLINE LeafHits<N> test_spheres(const RayAtLeaf& ray, const float* values, s
     const LeafFloats across = dot(l, l);
     const LeafFloats depth = mul_add(r, r, -across);
     const LeafFloats error =
-        mul_add(norm1(f), LeafFloats(roundings(32)), LeafFloats((roundings(8) + ray.point_error)));
+        mul_add(norm1(f), LeafFloats(roundings(32)), LeafFloats(roundings(8) + ray.point_error));
     const LeafFloats depth_error =
         mul_add(mul_add(norm1(l), LeafFloats(2.0F), error * LeafFloats(3.0F)), error,
                 mul_add(r, r, across) * LeafFloats(roundings(16)));

@@ -97,17 +97,16 @@ FastScene::FastScene(const Scene& scene, const Primitives& primitives,
                      std::optional<OctreeType> type, int threads, BackFaces back_faces,
                      Progress* progress)
     : scene_(scene), primitives_(primitives), back_faces_(back_faces) {
-    Bounds3 box;
-    for (const KindSummary& kind : primitives.kinds) box = box.extended(kind.box);
-    frame_ = local_frame(primitives, box);
-    if (!box.empty()) largest_coordinate_ = std::max(max_norm(box.min), max_norm(box.max));
+    for (const KindSummary& kind : primitives.kinds) box_ = box_.extended(kind.box);
+    frame_ = local_frame(primitives, box_);
+    if (!box_.empty()) largest_coordinate_ = std::max(max_norm(box_.min), max_norm(box_.max));
     const auto count = [&](PrimitiveKind kind) {
         return static_cast<Slot>(primitives.kind(kind).count);
     };
     triangle_end_ = count(PrimitiveKind::kTriangle);
     sphere_end_ = triangle_end_ + count(PrimitiveKind::kSphere);
     slot_end_ = sphere_end_ + count(PrimitiveKind::kEllipsoid);
-    order_slots(box);
+    order_slots();
     map_ellipsoids(threads);
     CompactBuildOptions options;
     options.rule = std::nullopt;
@@ -124,13 +123,13 @@ FastScene::FastScene(const Scene& scene, const Primitives& primitives,
         reach_ = std::max(max_norm(octree_.bounds.min), max_norm(octree_.bounds.max));
 }
 
-void FastScene::order_slots(const Bounds3& box) {
+void FastScene::order_slots() {
     if (primitives_.sorted_by_kind && slot_end_ == triangle_end_) return;
     std::vector<PrimitiveId> of_kind[3];
     for (PrimitiveId id = 0; id < slot_end_; ++id)
         of_kind[static_cast<std::size_t>(kind_of(object(id).shape))].push_back(id);
     for (const PrimitiveKind kind : {PrimitiveKind::kSphere, PrimitiveKind::kEllipsoid})
-        sort_in_space(primitives_, box, of_kind[static_cast<std::size_t>(kind)]);
+        sort_in_space(primitives_, box_, of_kind[static_cast<std::size_t>(kind)]);
     std::vector<Slot> slots(slot_end_);
     bool document_order = true;
     for (const std::vector<PrimitiveId>& ids : of_kind)

@@ -67,7 +67,9 @@ class FastScene {
         return bits;
     }
     const LocalFrame& frame() const { return frame_; }
-    /// Of all boxes of primitives; world space.
+    /// Around all primitives; world space.
+    const Bounds3& box() const { return box_; }
+    /// Of that box.
     double largest_coordinate() const { return largest_coordinate_; }
     /// Of a size at which no product of the local frame and a ray leaves the doubles; scenes of
     /// others are the serial tracer's.
@@ -127,12 +129,13 @@ class FastScene {
     }
 
   private:
-    void order_slots(const Bounds3& box);
+    void order_slots();
     void map_ellipsoids(int threads);
 
     const Scene& scene_;
     const Primitives& primitives_;
     BackFaces back_faces_;
+    Bounds3 box_;
     LocalFrame frame_;
     double largest_coordinate_ = 0;
     Slot triangle_end_ = 0;
