@@ -95,17 +95,20 @@ struct EmbreeFrame::Tile {
 
 EmbreeFrame::EmbreeFrame(const EmbreeScene& scene, Resolution resolution)
     : scene_(scene), resolution_(resolution) {
-    // Eq. 29 to 35 as in RayGenerator, linear in the pixel.
+    // As RayGenerator has them, linear in the pixel.
     const Camera& camera = scene.floats().camera;
-    const double width = resolution.width;
-    const double height = resolution.height;
-    const double half = std::tan(camera.field_of_view_rad / 2) / std::min(width, height);
-    const Vector3 across = camera.right * (2 * half);
-    const Vector3 down = camera.up * (-2 * half);
-    eye_ = Float3(camera.position);
-    across_ = Float3(across);
-    down_ = Float3(down);
-    corner_ = Float3(camera.forward - across * (width / 2) - down * (height / 2));
+    const RayGenerator rays(camera, resolution);
+    const Vector3 across = rays.step_right();
+    const Vector3 down = rays.step_down();
+    const Vector3 to_corner =
+        across * (-0.5 * resolution.width) + down * (-0.5 * resolution.height);
+    if (camera.window) {
+        direction_.corner = Float3(camera.forward);
+        origin_ = {Float3(rays.middle() + to_corner), Float3(across), Float3(down)};
+    } else {
+        direction_ = {Float3(camera.forward + to_corner), Float3(across), Float3(down)};
+        origin_.corner = Float3(camera.position);
+    }
     bias_ = kBias * scene.floats().largest_coordinate;
 }
 
@@ -116,12 +119,13 @@ void EmbreeFrame::make_rays(int x0, int y0, RTCRayHitNt<N>& pack, std::array<int
         const int y = y0 + i / Block<N>::kWidth;
         const float px = static_cast<float>(x) + 0.5F;
         const float py = static_cast<float>(y) + 0.5F;
-        const Float3 d = corner_ + across_ * px + down_ * py;
+        const Float3 from = origin_.at(px, py);
+        const Float3 d = direction_.at(px, py);
         const float scale = 1 / std::sqrt(dot(d, d));
         valid[i] = x < resolution_.width && y < resolution_.height ? -1 : 0;
-        pack.ray.org_x[i] = eye_.x;
-        pack.ray.org_y[i] = eye_.y;
-        pack.ray.org_z[i] = eye_.z;
+        pack.ray.org_x[i] = from.x;
+        pack.ray.org_y[i] = from.y;
+        pack.ray.org_z[i] = from.z;
         pack.ray.tnear[i] = 0;
         pack.ray.dir_x[i] = d.x * scale;
         pack.ray.dir_y[i] = d.y * scale;

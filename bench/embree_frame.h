@@ -49,10 +49,15 @@ class EmbreeFrame {
 
     const EmbreeScene& scene_;
     Resolution resolution_;
-    Float3 eye_;
-    Float3 corner_;   // direction through the picture's upper left corner
-    Float3 across_;   // from one pixel to the next
-    Float3 down_;     // from one row to the next
+    struct OfPixel {
+        Float3 corner;  // at the picture's upper left one
+        Float3 across;  // from one pixel to the next
+        Float3 down;    // from one row to the next
+
+        Float3 at(float x, float y) const { return corner + across * x + down * y; }
+    };
+    OfPixel origin_;
+    OfPixel direction_;
     float bias_ = 0;  // of shadow rays, along the geometric normal
 };
 

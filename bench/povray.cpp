@@ -16,6 +16,13 @@ std::string vec(const Vec3<T>& v) {
 }
 
 void write_camera(std::ostream& out, const Camera& camera) {
+    if (camera.window) {
+        const RayGenerator rays(camera, {1920, 1080});
+        out << "camera { orthographic location " << vec(rays.middle()) << " direction "
+            << vec(camera.forward) << " up " << vec(rays.step_down() * -1080) << " right "
+            << vec(rays.step_right() * 1920) << " }\n";
+        return;
+    }
     // The picture is wide: the field of view is the vertical one.
     const double half = std::tan(camera.field_of_view_rad / 2);
     out << "camera { perspective location " << vec(camera.position) << " direction "

@@ -125,6 +125,15 @@ Element viewpoint(Chooser& choose, const Point3& place, const Point3& target) {
     const double angle = std::atan2(length(axis), -d.z);
     if (axis == Vector3{}) axis = {0, 1, 0};
     view.set("orientation", text(axis) + " " + text(angle));
+    if (choose.once_in(4)) {
+        constexpr double kHalves[] = {4, 2, 1, 12, 0.01, 1e-6, 1e-12, 1e7};
+        const double half = choose.one_of(kHalves);
+        const double low = choose.once_in(3) ? -half * choose.fraction() : -half;
+        view.name = "OrthoViewpoint";
+        view.set("fieldOfView",
+                 text(low) + " " + text(-half) + " " + text(half) + " " + text(half));
+        return view;
+    }
     constexpr double kAngles[] = {1.2, 0.3, 1.5, 2.5, 3.1, 0.01, 1e-6, 1e-12};
     if (choose.once_in(3)) view.set("fieldOfView", text(choose.one_of(kAngles)));
     return view;

@@ -23,7 +23,7 @@ Element moved(Element child, const Vector3& by);
 
 /// A light; `place` is where it stands, if it stands anywhere.
 Element any_light(Chooser& choose, const Point3& place);
-/// A Viewpoint at `place` that looks towards `target`, or along an axis.
+/// A Viewpoint or OrthoViewpoint at `place` that looks towards `target`, or along an axis.
 Element viewpoint(Chooser& choose, const Point3& place, const Point3& target);
 /// A point at which things are hard, of a shape that stands at the origin and has about size 1.
 Point3 hard_point(Chooser& choose);

@@ -68,20 +68,20 @@ struct MetBlocks {
 };
 
 // Whoever has a pixel whose ray meets the sphere.
-void judge_blocks(const View& view, const CameraRays& camera, int tile_x, int tile_y,
-                  const RealVector& f, const Real& r, std::uint32_t met, MetBlocks& blocks) {
+void judge_blocks(const View& view, int tile_x, int tile_y, const RealVector& center, const Real& r,
+                  std::uint32_t met, MetBlocks& blocks) {
     using Long = Vec3<long double>;
     const auto rounded = [](const RealVector& v) {
         return Long(static_cast<long double>(v.x), static_cast<long double>(v.y),
                     static_cast<long double>(v.z));
     };
-    const Long from = rounded(f);
     const auto radius = static_cast<long double>(r);
     std::uint32_t truly = 0;
     for (int lane = 0; lane < kTileLanes; ++lane) {
-        const Long d = rounded(view.direction(camera.center_x(tile_x + lane_x(lane)),
-                                              camera.center_y(tile_y + lane_y(lane))));
-        const Long across = cross(from, d);
+        const int x = tile_x + lane_x(lane);
+        const int y = tile_y + lane_y(lane);
+        const Long d = rounded(view.direction(view.camera.center_x(x), view.camera.center_y(y)));
+        const Long across = cross(rounded(view.start(x, y) - center), d);
         if (dot(d, d) * radius * radius >= dot(across, across)) truly |= 1U << lane / kBlockLanes;
     }
     ASSERT_EQ(truly & ~met, 0U);
@@ -113,21 +113,29 @@ struct OneQuadric {
 
 struct JudgedLanes {
     int hit = 0;
-    double widest = 0;  // of 1 / t, relative, where the sphere is large in the picture
+    // Of q where the sphere is large in the picture and not grazed: relative, or of parallel rays
+    // in units of the local frame.
+    double widest = 0;
 };
 
-// A sphere's functions at the first block's pixels: seen at `f` from its centre, in the directions
-// that `direction` says.
-template <typename Direction>
-void judge_lanes(const ConicAnswers& found, const RealVector& f, const Real& r,
-                 const Direction& direction, bool wide, JudgedLanes& lanes) {
-    const Real power = dot(f, f) - r * r;
+// A sphere's functions at the first block's pixels. The sphere sees vectors as `seen` says.
+template <typename Seen>
+void judge_lanes(const ConicAnswers& found, const View& view, int tile_x, int tile_y,
+                 const RealVector& center, const Real& r, const Seen& seen, bool wide,
+                 JudgedLanes& lanes) {
+    const CameraRays& camera = view.camera;
     for (int lane = 0; lane < ConicAnswers::kLanes; ++lane) {
         SCOPED_TRACE("lane " + std::to_string(lane));
-        const RealVector d = direction(lane);
+        const int x = tile_x + lane_x(lane);
+        const int y = tile_y + lane_y(lane);
+        const RealVector d = seen(view.direction(camera.center_x(x), camera.center_y(y)));
+        const RealVector f = seen(view.start(x, y) - center);
         const RealVector across = cross(f, d);
         const Real discriminant = dot(d, d) * r * r - dot(across, across);
-        const Real toward = dot(f, d);
+        // Of a parallel projection from the plane through the anchor on.
+        const Real toward =
+            camera.parallel ? Real(-dot(f, d) - Real(camera.starts_at) * dot(d, d)) : dot(f, d);
+        const Real power = camera.parallel ? dot(d, d) : Real(dot(f, f) - r * r);
         ASSERT_LE(abs(Real(found.discriminant[lane]) - discriminant), Real(found.error));
         ASSERT_LE(abs(Real(found.toward[lane]) - toward), Real(found.toward_error));
         if (discriminant < 0) continue;
@@ -136,9 +144,12 @@ void judge_lanes(const ConicAnswers& found, const RealVector& f, const Real& r,
         ASSERT_LE(Real(found.low[lane]), q);
         ASSERT_GE(Real(found.high[lane]), q);
         ++lanes.hit;
-        if (wide && discriminant > toward * toward / 64)
-            lanes.widest = std::max(
-                lanes.widest, static_cast<double>(Real(found.high[lane] - found.low[lane]) / q));
+        const Real tile = kTileSide * length(camera.right);
+        const Real large = camera.parallel ? Real(tile * tile * power) : Real(toward * toward);
+        if (wide && discriminant > large / 64)
+            lanes.widest = std::max(lanes.widest,
+                                    static_cast<double>(Real(found.high[lane] - found.low[lane]) /
+                                                        (camera.parallel ? Real(1) : q)));
     }
 }
 
@@ -147,12 +158,11 @@ TEST(ConicBounds, HoldForSpheres) {
         const auto ask = NUVO_FOR_ISA(isa, ask_conic);
         std::mt19937_64 random(kSeed + 3);
         int judged = 0;
-        JudgedLanes lanes;
+        JudgedLanes lanes[2];  // in perspective, and of parallel rays
         MetBlocks blocks;
         for (int round = 0; round < 800; ++round) {
             SCOPED_TRACE("round " + std::to_string(round));
-            View view(random_camera(random), 1);
-            const Point3& eye = view.scene.camera.position;
+            View view(camera_of_round(random, round / 4), 1);
             const int tile_x = static_cast<int>(random() % 120) * kTileSide;
             const int tile_y = static_cast<int>(random() % 67) * kTileSide;
             // Behind the tile, beside it, tangent to a ray of it, or around the eye.
@@ -160,6 +170,9 @@ TEST(ConicBounds, HoldForSpheres) {
             const double x = view.camera.center_x(tile_x) + uniform(random, 0, 4);
             const double y = view.camera.center_y(tile_y) + uniform(random, 0, 4);
             const Vector3 way = normalized(view.camera.direction(x, y));
+            const Point3 eye = view.camera.parallel
+                                   ? view.camera.rays.middle() + view.camera.offset(x, y)
+                                   : view.camera.anchor;
             const double far = std::exp2(uniform(random, -2, 6));
             double radius = std::exp2(uniform(random, -14, 1)) * far;
             Point3 center = eye + way * far;
@@ -168,28 +181,26 @@ TEST(ConicBounds, HoldForSpheres) {
                 center = center + normalized(cross(way, uniform_point(random, 1))) * radius;
             if (kind == 3) center = eye + uniform_point(random, 0.5) * radius;
             const OneQuadric one(view.scene, Sphere{center, radius}, isa);
-            const FastScene& fast = one.fast;
-            const CameraRays& camera = one.camera;
             const CameraSphere& sphere = one.tables.spheres[0];
             if (sphere.floats_cannot_tell) continue;
             ConicAnswers found;
-            ask(camera, tile_x, tile_y, sphere, nullptr, found);
+            ask(one.camera, tile_x, tile_y, sphere, nullptr, found);
             ++judged;
-            const Real scale = fast.frame().scale;
-            const RealVector f = (RealVector(eye) - RealVector(center)) * scale;
+            const View local(view.scene.camera, one.fast.frame());
+            const Real scale = one.fast.frame().scale;
+            const RealVector local_center = RealVector(center) * scale;
             const Real r = Real(radius) * scale;
-            judge_blocks(view, camera, tile_x, tile_y, f, r, found.met, blocks);
+            judge_blocks(local, tile_x, tile_y, local_center, r, found.met, blocks);
             judge_lanes(
-                found, f, r,
-                [&](int lane) {
-                    return view.direction(camera.center_x(tile_x + lane_x(lane)),
-                                          camera.center_y(tile_y + lane_y(lane)));
-                },
-                radius < 0.5 * far, lanes);
+                found, local, tile_x, tile_y, local_center, r,
+                [](const RealVector& v) { return v; }, radius < 0.5 * far,
+                lanes[view.camera.parallel ? 1 : 0]);
         }
         EXPECT_GT(judged, 700);
-        EXPECT_GT(lanes.hit, 6000);
-        EXPECT_LT(lanes.widest, 0x1p-16);
+        EXPECT_GT(lanes[0].hit, 4000);
+        EXPECT_GT(lanes[1].hit, 800);
+        EXPECT_LT(lanes[0].widest, 0x1p-16);
+        EXPECT_LT(lanes[1].widest, 0x1p-13);
         EXPECT_LT(blocks.found, blocks.truly * 1.2) << blocks.truly;
     }
 }
@@ -199,11 +210,10 @@ TEST(ConicBounds, HoldForEllipsoids) {
         const auto ask = NUVO_FOR_ISA(isa, ask_conic);
         std::mt19937_64 random(kSeed + 5);
         int judged = 0;
-        JudgedLanes lanes;
+        JudgedLanes lanes[2];  // in perspective, and of parallel rays
         for (int round = 0; round < 600; ++round) {
             SCOPED_TRACE("round " + std::to_string(round));
-            View view(random_camera(random), 1);
-            const Point3& eye = view.scene.camera.position;
+            View view(camera_of_round(random, round / 3), 1);
             const int tile_x = static_cast<int>(random() % 120) * kTileSide;
             const int tile_y = static_cast<int>(random() % 67) * kTileSide;
             // Behind the tile, or around the eye.
@@ -211,6 +221,9 @@ TEST(ConicBounds, HoldForEllipsoids) {
             const double x = view.camera.center_x(tile_x) + uniform(random, 0, 4);
             const double y = view.camera.center_y(tile_y) + uniform(random, 0, 4);
             const Vector3 way = normalized(view.camera.direction(x, y));
+            const Point3 eye = view.camera.parallel
+                                   ? view.camera.rays.middle() + view.camera.offset(x, y)
+                                   : view.camera.anchor;
             const double far = std::exp2(uniform(random, -2, 6));
             const double size = std::exp2(uniform(random, around ? 0 : -10, 1)) * far;
             const Point3 center =
@@ -219,31 +232,30 @@ TEST(ConicBounds, HoldForEllipsoids) {
                 random_ellipsoid(random, center, size, round % 2 == 0 ? -1 : -5);
             const OneQuadric one(view.scene, ellipsoid, isa);
             const FastScene& fast = one.fast;
-            const CameraRays& camera = one.camera;
             const CameraSphere& ball = one.tables.balls[0];
             if (ball.floats_cannot_tell) continue;
             const BallMap& map = fast.ball(0);
             ConicAnswers found;
-            ask(camera, tile_x, tile_y, ball, &map, found);
+            ask(one.camera, tile_x, tile_y, ball, &map, found);
             ++judged;
             const TrueBall exact(ellipsoid, fast.frame().scale, map.radius);
-            const RealVector f =
-                exact((RealVector(eye) - RealVector(center)) * Real(fast.frame().scale));
+            const View local(view.scene.camera, fast.frame());
+            const Real scale = fast.frame().scale;
             const Real r = Real(map.radius);
-            const Real power = dot(f, f) - r * r;
-            ASSERT_EQ(power < 0, ball.inverse_power < 0) << "round " << round;
+            const RealVector f = exact((RealVector(eye) - RealVector(center)) * scale);
+            const bool inside = !view.camera.parallel && dot(f, f) < r * r;
+            ASSERT_EQ(inside, ball.inverse_power < 0) << "round " << round;
             judge_lanes(
-                found, f, r,
-                [&](int lane) {
-                    return exact(view.direction(camera.center_x(tile_x + lane_x(lane)),
-                                                camera.center_y(tile_y + lane_y(lane))));
-                },
-                !around, lanes);
+                found, local, tile_x, tile_y, RealVector(center) * scale, r,
+                [&](const RealVector& v) { return exact(v); }, !around,
+                lanes[view.camera.parallel ? 1 : 0]);
         }
         EXPECT_GT(judged, 500);
-        EXPECT_GT(lanes.hit, 4000);
+        EXPECT_GT(lanes[0].hit, 3000);
+        EXPECT_GT(lanes[1].hit, 800);
         // The flattest and most skewed are stretched by about 2^6.
-        EXPECT_LT(lanes.widest, 0x1p-12);
+        EXPECT_LT(lanes[0].widest, 0x1p-12);
+        EXPECT_LT(lanes[1].widest, 0x1p-11);
     }
 }
 

@@ -53,17 +53,19 @@ struct CulledScene {
     std::unique_ptr<CameraRays> camera;
     MacroTile tile{};
 
-    CulledScene(std::mt19937_64& random, Kind kind, bool solid) {
+    CulledScene(std::mt19937_64& random, Kind kind, bool solid, bool parallel) {
         const double far = random() % 2 == 0 ? 1 : std::exp2(uniform(random, 0, 14));
         const Point3 eye = uniform_point(random, far);
         scene.camera = camera_along(eye, uniform_point(random, 1));
+        if (parallel)
+            scene.camera = parallel_camera(scene.camera, std::exp2(uniform(random, -2, 2)));
         // What the rays are does not depend on the scene.
         const View view(scene.camera, 1);
         tile.x = static_cast<int>(random() % kPicture.width) / kMacroSide * kMacroSide;
         tile.y = static_cast<int>(random() % kPicture.height) / kMacroSide * kMacroSide;
         TriangleMesh mesh;
         for (int i = 0; i < kTriangles; ++i) {
-            const Triangle t = triangle(random, kind, view.camera, eye);
+            const Triangle t = triangle(random, kind, view.camera);
             for (const Point3& corner : {t.a, t.b, t.c}) mesh.positions.push_back(corner);
             const auto first = static_cast<std::uint32_t>(3 * i);
             mesh.triangles.push_back({first, first + 1, first + 2});
@@ -80,11 +82,12 @@ struct CulledScene {
     double middle_y() const { return middle(tile.y, kPicture.height); }
 
     RealVector from_eye(const Point3& p) const {
-        return (RealVector(p) - RealVector(scene.camera.position)) * Real(fast->frame().scale);
+        return (RealVector(p) - RealVector(camera->anchor)) * Real(fast->frame().scale);
     }
     bool shows_its_back(const Triangle& t) const {
         const RealVector a = from_eye(t.a);
-        return dot(cross(from_eye(t.b) - a, from_eye(t.c) - a), a) > 0;
+        const RealVector way = camera->parallel ? RealVector(camera->forward) : a;
+        return dot(cross(from_eye(t.b) - a, from_eye(t.c) - a), way) > 0;
     }
     /// Beyond a plane through the eye that has all rays of the tile on its other side.
     bool lies_beside(const Triangle& t) const {
@@ -103,13 +106,17 @@ struct CulledScene {
     }
 
   private:
+    // By which pixel coordinates shrink.
+    Real depth_of(const RealVector& w) const {
+        return camera->parallel ? Real(1) : dot(RealVector(camera->forward), w);
+    }
     bool has_no_pixel(const Triangle& t, const Vector3& axis, double middle) const {
         const RealVector along(axis);
         Real low = 2 * kMacroSide;
         Real high = -low;
         for (const Point3& p : {t.a, t.b, t.c}) {
             const RealVector w = from_eye(p);
-            const Real depth = dot(RealVector(camera->forward), w);
+            const Real depth = depth_of(w);
             if (depth <= 0) return false;
             const Real pixel = dot(along, w) / dot(along, along) / depth - Real(middle) +
                                Real(0.5 * (kMacroSide - 1));
@@ -126,18 +133,21 @@ struct CulledScene {
         const auto beyond = [&](const Point3& p) {
             const RealVector w = from_eye(p);
             const Real pixels = dot(along, w) / dot(along, along);
-            const Real depth = dot(RealVector(camera->forward), w);
+            const Real depth = depth_of(w);
             return Real(sign) * (pixels - Real(middle) * depth) > Real(half) * depth;
         };
         return beyond(t.a) && beyond(t.b) && beyond(t.c);
     }
     static double middle(int first, int size) { return first + 0.5 * kMacroSide - 0.5 * size; }
 
-    Triangle triangle(std::mt19937_64& random, Kind kind, const CameraRays& rays,
-                      const Point3& eye) const {
+    Triangle triangle(std::mt19937_64& random, Kind kind, const CameraRays& rays) const {
+        const auto start = [&](double x, double y) {
+            return rays.parallel ? rays.rays.middle() + rays.offset(x, y) : rays.anchor;
+        };
         const auto toward = [&](double x, double y) {
             const double nearest = kind == kBetweenPixels ? -14 : -6;
-            return eye + normalized(rays.direction(x, y)) * std::exp2(uniform(random, nearest, 3));
+            return start(x, y) +
+                   normalized(rays.direction(x, y)) * std::exp2(uniform(random, nearest, 3));
         };
         const double width = kind == kAnywhere ? 300 : 40;
         const auto point = [&] {
@@ -150,7 +160,7 @@ struct CulledScene {
         t.b = t.a + uniform_point(random, size);
         t.c = t.a + uniform_point(random, size);
         if (kind == kEdgeOn) {  // in a plane through the eye, but for a little
-            const Vector3 way = t.a - eye;
+            const Vector3 way = rays.parallel ? rays.forward : t.a - rays.anchor;
             t.b = t.a + way * uniform(random, 0.01, 1);
             t.c = t.a + way * uniform(random, -0.5, 0.5);
             if (random() % 2 == 0) t.c = t.b + uniform_point(random, size);
@@ -191,7 +201,7 @@ TEST(CullingBounds, NothingIsCulledThatMayShow) {
         for (int round = 0; round < 1600; ++round) {
             const auto kind = static_cast<Kind>(round % kKinds);
             const bool solid = round / kKinds % 3 != 0;
-            const CulledScene culled(random, kind, solid);
+            const CulledScene culled(random, kind, solid, round / (3 * kKinds) % 3 == 0);
             // Triangles that turn out to be without area are none of the scene's.
             for (Slot first = 0; first + 16 <= culled.fast->triangle_end(); first += 16) {
                 Slot slots[16];

@@ -52,6 +52,11 @@ TEST(SerialTree, IsNotBuiltForOrdinaryScenes) {
         subject.picture();
         subject.hits(subject.rays());
         EXPECT_FALSE(subject.serial.is_built());
+        Scene parallel = subject.scene;
+        parallel.camera = parallel_camera(parallel.camera, length(parallel.camera.position));
+        Subject other(parallel);
+        other.picture();
+        EXPECT_FALSE(other.serial.is_built());
     }
 }
 

@@ -57,6 +57,27 @@ TEST(OrthoViewpoint, TurnsAndScalesWithItsAncestors) {
     EXPECT_EQ(image.at(50, 26).r, 0);
 }
 
+// Rays start in the plane z = 0: of what it cuts only the part below is there.
+TEST(OrthoViewpoint, ShowsWhatLiesBeforeItsRaysStart) {
+    const std::string view = "<OrthoViewpoint position='0 0 0' fieldOfView='-5 -5 5 5'/>";
+    // y = z, rising through that plane; and a sphere and a box around where rays start.
+    const Image slope = picture(
+        view +
+        "<Shape><IndexedFaceSet solid='false' coordIndex='0 1 2 3 -1'><Coordinate point='-4 "
+        "-4 -4 4 -4 -4 4 4 4 -4 4 4'/></IndexedFaceSet></Shape>");
+    const Image sphere = picture(view + "<Shape><Sphere radius='3' solid='false'/></Shape>");
+    const Image box = picture(view + "<Shape><Box size='6 6 1' solid='false'/></Shape>");
+    for (int y = 0; y < kSize.height; ++y)
+        for (int x = 0; x < kSize.width; ++x) {
+            const double wide = (x + 0.5 - 40) / 4, high = (20 - y - 0.5) / 4;
+            ASSERT_EQ(slope.at(x, y).r, std::abs(wide) < 4 && high < 0 && high > -4 ? 255 : 0)
+                << x << " " << y;
+            ASSERT_EQ(sphere.at(x, y).r, wide * wide + high * high < 9 ? 255 : 0) << x << " " << y;
+            ASSERT_EQ(box.at(x, y).r, std::abs(wide) < 3 && std::abs(high) < 3 ? 255 : 0)
+                << x << " " << y;
+        }
+}
+
 TEST(OrthoViewpoint, OfNoExtentIsTheStandards) {
     const std::string box = "<Shape><Box/></Shape>";
     const Image standard = picture("<OrthoViewpoint/>" + box);

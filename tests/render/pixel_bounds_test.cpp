@@ -27,6 +27,7 @@ TEST(PixelBounds, HoldThePixelThatASphereTouches) {
             const Point3 eye = uniform_point(random, 1);
             scene.camera = camera_along(eye, uniform_point(random, 1));
             scene.camera.field_of_view_rad = uniform(random, 0.3, 2);
+            if (round / 4 % 3 == 0) scene.camera = parallel_camera(scene.camera, 2);
             const CameraRays rays(scene.camera, kPicture, LocalFrame{{}, 1, 0.25});
             const int x = static_cast<int>(random() % 60'000);
             const int y = static_cast<int>(random() % 60'000);
@@ -35,9 +36,10 @@ TEST(PixelBounds, HoldThePixelThatASphereTouches) {
             const bool by_column = round % 2 != 0;
             const double side = round % 4 < 2 ? 1 : -1;
             const Vector3 away = normalized(cross(way, by_column ? rays.down : rays.right)) * side;
+            const Point3 start = rays.rays.ray(x, y).origin;
             const double far = std::exp2(uniform(random, -2, 6));
             const double radius = std::exp2(uniform(random, -8, -2)) * far;
-            const Point3 center = scene.camera.position + way * far + away * radius;
+            const Point3 center = start + way * far + away * radius;
             Object object;
             object.shape = Sphere{center, radius * (1 + 0x1p-36)};
             scene.objects = {object};

@@ -87,8 +87,10 @@ class Shown {
     std::uint32_t object_index(const Tile& tile, int lane) const {
         return fast_.source(tile.slot[lane]).object;
     }
-    double depth(const Point3& p) const {
-        return dot(fast_.frame().local(p) - camera_.origin, camera_.forward);
+    /// q of a point that the camera sees.
+    double near_at(const Point3& p) const {
+        const double depth = dot(fast_.frame().local(p) - camera_.origin, camera_.forward);
+        return camera_.parallel ? -depth : 1 / depth;  // the view's part of rays is 1
     }
     Vector3 local(const Point3& p) const { return fast_.frame().local(p) - Point3{}; }
 
@@ -153,9 +155,10 @@ class Judge {
         for (int lane = 0; lane < kTileLanes; ++lane) {
             if (!is_told(tile, scratch, lane)) continue;
             const auto truth = shown.surface(tile, lane);
-            const double depth = shown.depth(truth.point);  // t: the view's part of rays is 1
-            ASSERT_LE(static_cast<double>(tile.near_low[lane]) * depth, 1 + slack_);
-            ASSERT_GE(static_cast<double>(tile.near_high[lane]) * depth, 1 - slack_);
+            const double q = shown.near_at(truth.point);
+            const double slack = slack_ * std::fabs(q);
+            ASSERT_LE(static_cast<double>(tile.near_low[lane]), q + slack);
+            ASSERT_GE(static_cast<double>(tile.near_high[lane]), q - slack);
             const bool curved =
                 !std::holds_alternative<TriangleMesh>(shown.object(tile, lane).shape);
             const bool by_normal = bit(scratch.smooth, lane);

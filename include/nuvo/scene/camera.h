@@ -55,9 +55,12 @@ class RayGenerator {
     /// The ray through any point of the picture, in pixels from its top left corner.
     Ray ray_at(double x, double y) const;
     /// From a pixel's direction to its right and lower neighbour's, both before they get unit
-    /// length, where the view's own direction has length 1. Of a perspective camera.
+    /// length, where the view's own direction has length 1. Of a parallel projection: from the
+    /// start of a pixel's ray to its neighbours'.
     Vector3 step_right() const { return camera_.right * (2 * half_width_ / width_); }
     Vector3 step_down() const { return camera_.up * (-2 * half_height_ / height_); }
+    /// Where the ray through the picture's middle starts. Of a parallel projection.
+    const Point3& middle() const { return middle_; }
 
   private:
     Camera camera_;

@@ -33,8 +33,8 @@ namespace {
 // Of the float stages that use it.
 float bound(double value) { return rounded_up(value + kFloatUnderflow); }
 
-// A sphere of radius r seen from `from`, all in one frame. `error` bounds that of |from|^2 - r^2,
-// `cross_error` those of from x d and from . d on each axis.
+// A sphere of radius r seen from an eye at `from`, all in one frame. `error` bounds that of the
+// power |from|^2 - r^2, `cross_error` those of from x d and from . d on each axis.
 CameraSphere make_sphere(const Vector3& from, double r, double error, double cross_error) {
     const double ff = dot(from, from);
     const double power = ff - r * r;
@@ -50,27 +50,70 @@ CameraSphere make_sphere(const Vector3& from, double r, double error, double cro
     return out;
 }
 
-// `r` in the local frame.
-CameraSphere make_local_sphere(const Vector3& from, double r, double direction) {
-    // f carries one rounding, its square and r's three more.
-    return make_sphere(from, r, gamma(8) * (dot(from, from) + r * r),
-                       gamma(32) * max_norm(from) * direction);
-}
-
-// The ball of an ellipsoid. [numerics: ellipsoids as balls]
-CameraSphere make_ball(const BallMap& map, const Vector3& from, double direction) {
-    const Vector3 f = map.to_ball * from;
-    const double f_size = max_norm(f);
-    const double f_error = max_norm(from) * (map.error + gamma(8) * map.stretch);
-    const double d_size = map.stretch * direction;
-    const double d_error = direction * (map.error + gamma(8) * map.stretch);
-    CameraSphere out = make_sphere(
-        f, map.radius,
-        gamma(8) * (dot(f, f) + map.radius * map.radius) + 3 * f_error * (2 * f_size + f_error),
-        gamma(32) * f_size * d_size + 4 * (f_size * d_error + f_error * (d_size + d_error)));
-    out.floats_cannot_tell |= !map.sure;
+// The same along parallel rays in the direction d; `error` bounds that of |d|^2.
+CameraSphere make_parallel_sphere(const Vector3& from, double r, const Vector3& d, double error,
+                                  double cross_error) {
+    CameraSphere out = make_sphere(from, r, 0, cross_error);
+    const double square = dot(d, d);
+    out.inverse_power = static_cast<float>(1 / square);
+    out.power_error = bound(2 * error / square + roundings(4));
+    out.floats_cannot_tell = !(square > 4 * error && std::isfinite(out.inverse_power) &&
+                               std::isnormal(out.radius) && std::isfinite(out.cross_error));
     return out;
 }
+
+// Makes spheres as one camera sees them.
+class SphereMaker {
+  public:
+    explicit SphereMaker(const CameraRays& camera)
+        : camera_(camera),
+          direction_(CameraExtent(camera).direction),
+          starts_(CameraExtent(camera).starts) {}
+
+    // `r` in the local frame.
+    CameraSphere local(const Vector3& from, double r) const {
+        const double cross_error = gamma(32) * (max_norm(from) + starts_) * direction_;
+        // Of a square, three roundings; f carries one, and r's three more.
+        if (camera_.parallel)
+            return make_parallel_sphere(from, r, camera_.forward, gamma(4), cross_error);
+        return make_sphere(from, r, gamma(8) * (dot(from, from) + r * r), cross_error);
+    }
+
+    // The ball of an ellipsoid. [numerics: ellipsoids as balls]
+    CameraSphere ball(const BallMap& map, const Vector3& from) const {
+        const Vector3 f = map.to_ball * from;
+        const double map_error = map.error + gamma(8) * map.stretch;
+        const double f_size = max_norm(f) + map.stretch * starts_;
+        const double f_error = (max_norm(from) + starts_) * map_error;
+        const double d_size = map.stretch * direction_;
+        const double d_error = direction_ * map_error;
+        const double cross_error =
+            gamma(32) * f_size * d_size + 4 * (f_size * d_error + f_error * (d_size + d_error));
+        CameraSphere out = camera_.parallel
+                               ? make_parallel_sphere(f, map.radius, map.to_ball * camera_.forward,
+                                                      3 * d_error * (2 * d_size + d_error) +
+                                                          gamma(8) * d_size * d_size,
+                                                      cross_error)
+                               : make_sphere(f, map.radius,
+                                             gamma(8) * (dot(f, f) + map.radius * map.radius) +
+                                                 3 * f_error * (2 * f_size + f_error),
+                                             cross_error);
+        out.floats_cannot_tell |= !map.sure;
+        return out;
+    }
+
+    // Whether it may stand where the rays of a parallel projection start.
+    bool may_hold_starts(const Vector3& from, double r) const {
+        if (!camera_.parallel) return false;
+        const double q = dot(from, camera_.forward);
+        return q + r + gamma(8) * (3 * max_norm(from) + r + starts_) >= camera_.starts_at;
+    }
+
+  private:
+    const CameraRays& camera_;
+    double direction_;
+    double starts_;
+};
 
 }  // namespace
 
@@ -92,9 +135,9 @@ CameraTables::CameraTables(const FastScene& scene, const CameraRays& camera, Ins
 }
 
 void CameraTables::make_spheres(QuadricSpan quadrics) {
-    const Point3& eye = camera_.eye;
+    const Point3& anchor = camera_.anchor;
     const double scale = camera_.scale;
-    const double direction = CameraExtent(camera_).direction;
+    const SphereMaker maker(camera_);
     for (const QuadricSlot& quadric : quadrics) {
         if (const QuadricSlot* const prefetched = scene_.prefetched_after(quadric))
             __builtin_prefetch(&spheres[prefetched->slot - scene_.triangle_end()], 1);
@@ -103,19 +146,23 @@ void CameraTables::make_spheres(QuadricSpan quadrics) {
         const bool front_only = scene_.front_only(object);
         CameraSphere& out = spheres[quadric.slot - scene_.triangle_end()];
         if (const auto* sphere = std::get_if<Sphere>(&shape)) {
-            out = make_local_sphere((eye - sphere->center) * scale, sphere->radius * scale,
-                                    direction);
+            const Vector3 from = (anchor - sphere->center) * scale;
+            const double r = sphere->radius * scale;
+            out = maker.local(from, r);
+            out.floats_cannot_tell |= maker.may_hold_starts(from, r);
             out.unseen = front_only && !out.floats_cannot_tell && out.inverse_power < 0;
         } else {
             const Bounds3 box = bounds(shape);
             // Halves do not overflow.
             const Vector3 half = (box.max * 0.5 - box.min * 0.5) * scale;
             const double r = length(half) * (1 + gamma(64)) + kFloatUnderflow;
-            out = make_local_sphere((eye - box.center()) * scale, r, direction);
+            const Vector3 from = (anchor - box.center()) * scale;
+            out = maker.local(from, r);
             out.floats_cannot_tell = true;
             CameraSphere& ball = balls[quadric.slot - scene_.sphere_end()];
             const Point3& center = std::get<Ellipsoid>(shape).center;
-            ball = make_ball(scene_.ball(quadric.slot), (eye - center) * scale, direction);
+            ball = maker.ball(scene_.ball(quadric.slot), (anchor - center) * scale);
+            ball.floats_cannot_tell |= maker.may_hold_starts(from, r);
             ball.material = object.material;
             ball.solid = object.solid;
             out.unseen = front_only && !ball.floats_cannot_tell && ball.inverse_power < 0;

@@ -1,13 +1,17 @@
 #pragma once
 
+#include <cmath>
+
 #include "fast/scene/fast_scene.h"
+#include "fast/tile/camera_rays.h"
 #include "fast/tile/tile.h"
 #include "nuvo/math/big_vector.h"
+#include "nuvo/math/error_bounds.h"
 #include "nuvo/render/fast.h"
 
-// What rays with a common origin ask of primitives. Of a sphere the vector f x d is affine in the
-// pixel's coordinates, and the ray's distance from the centre comes from it without cancellation
-// (Haines et al. 2019).
+// What a camera's rays ask of primitives. Of a sphere the vector f x d is affine in the pixel's
+// coordinates, and the ray's distance from the centre comes from it without cancellation (Haines et
+// al. 2019).
 
 namespace nuvo {
 
@@ -18,18 +22,40 @@ struct CameraExtent {
     explicit CameraExtent(const CameraRays& camera)
         : x(0.5 * (camera.resolution.width + kTileSide)),
           y(0.5 * (camera.resolution.height + kTileSide)),
-          direction(3 * (max_norm(camera.forward) + x * max_norm(camera.right) +
-                         y * max_norm(camera.down))) {}
+          direction(3 * max_norm(camera.forward)),
+          starts(0) {
+        const double offset = 3 * (x * max_norm(camera.right) + y * max_norm(camera.down));
+        if (camera.parallel)
+            starts = offset + camera.start_error / kUnitRoundoff;
+        else
+            direction += offset;
+    }
 
     double x;  ///< pixels
     double y;
-    double direction;  ///< bounds the sum of |components| of forward, X right and Y down
+    double direction;  ///< bounds the sum of |components| of a ray's direction
+    /// Of a parallel projection, else 0: bounds that of how far rays are from the anchor; what they
+    /// are off is in it, counted as a rounding.
+    double starts;
 };
 
-/// The functions u, v, w (each >= 0 inside of an edge) and q = 1 / t of a triangle at the pixel
-/// coordinates X, Y of CameraRays: value = c + a X + b Y, each off by at most e over the picture
-/// if it is evaluated in float by at most kCameraRoundings operations. e is infinite where floats
-/// cannot tell.
+/// Of a parallel projection: what has a lower q than `low` stands surely before the rays' starts,
+/// what has a higher one than `high` surely behind.
+struct StartRange {
+    float low;
+    float high;
+};
+inline StartRange start_range(const CameraRays& camera) {
+    const double slack =
+        CameraExtent(camera).starts * gamma(8) + roundings(2) * std::fabs(camera.starts_at);
+    return {static_cast<float>(camera.starts_at - slack),
+            static_cast<float>(camera.starts_at + slack)};
+}
+
+/// The functions u, v, w (each >= 0 inside of an edge) and q of a triangle at the pixel coordinates
+/// X, Y of CameraRays: value = c + a X + b Y, each off by at most e over the picture if it is
+/// evaluated in float by at most kCameraRoundings operations. e is infinite where floats cannot
+/// tell.
 struct alignas(64) CameraTriangle {
     float a[4];
     float b[4];
@@ -42,12 +68,14 @@ inline constexpr int kCameraRoundings = 12;
 /// A sphere, the sphere around an ellipsoid, or an ellipsoid's ball, where that is mapped to, seen
 /// from the camera.
 struct alignas(64) CameraSphere {
-    double from[3];          ///< f: from the centre to the camera, local
+    double from[3];          ///< f: from the centre to the anchor of CameraRays, local
     double exact_radius;     ///< r in double
     float radius;            ///< r
-    float inverse_power;     ///< 1 / (f.f - r^2); its sign tells which root is hit
+    float inverse_power;     ///< 1 / (f.f - r^2); its sign tells which root is hit. Of a
+                             ///< parallel projection: 1 / d.d
     float power_error;       ///< relative, of inverse_power
-    float cross_error;       ///< bounds the error of f x d in double on each axis, over the picture
+    float cross_error;       ///< bounds the error of f x d and of f.d in double on each axis,
+                             ///< over the picture
     std::uint32_t material;  ///< index into Scene::materials
     bool solid;
     bool unseen;  ///< the camera is surely inside, where a back that nobody sees is turned to it
@@ -66,7 +94,7 @@ struct SeenQuadric {
 struct alignas(16) PixelBox {
     std::uint32_t columns;  ///< the first | the one after the last << 16
     std::uint32_t rows;     ///< the same
-    float nearest;          ///< bounds q = 1 / t of its hits from above
+    float nearest;          ///< bounds q of its hits from above
     std::uint32_t unused;
 };
 static_assert(sizeof(PixelBox) == 16);

@@ -8,41 +8,57 @@
 
 namespace nuvo {
 
-ExactPlane::ExactPlane(const Triangle& t, const Point3& eye) {
-    const ExactVector a(t.a);
-    normal = cross(ExactVector(t.b) - a, ExactVector(t.c) - a);
-    constant = dot(normal, a - ExactVector(eye));
+namespace {
+
+// Of a plane through a point, which counts from the anchor.
+Exact from_anchor_of(const ExactVector& normal, const ExactVector& point,
+                     const CameraRays& camera) {
+    return camera.parallel ? dot(normal, point) * Exact(-camera.scale) : Exact();
 }
 
-ScaledVector::ScaledVector(const ExactVector& v) {
-    WideDouble part[3];
+}  // namespace
+
+ExactPlane::ExactPlane(const Triangle& t, const CameraRays& camera) {
+    const ExactVector corner(t.a);
+    normal = cross(ExactVector(t.b) - corner, ExactVector(t.c) - corner);
+    const ExactVector a = corner - ExactVector(camera.anchor);
+    from_anchor = from_anchor_of(normal, a, camera);
+    constant = camera.parallel ? dot(normal, ExactVector(camera.forward))
+                               : dot(normal, a) * Exact(camera.scale);
+}
+
+ScaledPlane::ScaledPlane(const ExactVector& exact_normal, const Exact& exact_constant) {
+    WideDouble part[4];
     bool found = false;
-    for (int axis = 0; axis < 3; ++axis) {
-        part[axis] = v[axis].approximate();
-        if (part[axis].significand() == 0) continue;
-        exponent = found ? std::max(exponent, part[axis].exponent()) : part[axis].exponent();
+    for (int i = 0; i < 4; ++i) {
+        part[i] = (i < 3 ? exact_normal[i] : exact_constant).approximate();
+        if (part[i].significand() == 0) continue;
+        exponent = found ? std::max(exponent, part[i].exponent()) : part[i].exponent();
         found = true;
     }
-    for (int axis = 0; axis < 3; ++axis)
-        if (part[axis].significand() != 0)
-            value[axis] =
-                WideDouble(part[axis].significand(), part[axis].exponent() - exponent).rounded();
+    for (int i = 0; i < 4; ++i) {
+        if (part[i].significand() == 0) continue;
+        (i < 3 ? normal[i] : from_anchor) =
+            WideDouble(part[i].significand(), part[i].exponent() - exponent).rounded();
+    }
 }
 
-PixelFunction along_rays(const CameraRays& camera, const Vector3& v) {
+PixelFunction along_rays(const CameraRays& camera, const ScaledPlane& plane, double factor) {
     const CameraExtent extent(camera);
-    const double a = dot(v, camera.right);
-    const double b = dot(v, camera.down);
-    const double c = dot(v, camera.forward);
+    const Vector3 normal = plane.normal * factor;
+    const double a = dot(normal, camera.right);
+    const double b = dot(normal, camera.down);
+    const double c = camera.parallel ? plane.from_anchor * factor : dot(normal, camera.forward);
     const double most = std::fabs(a) * extent.x + std::fabs(b) * extent.y + std::fabs(c);
+    const double reach = camera.parallel ? extent.starts : extent.direction;
     return {static_cast<float>(a), static_cast<float>(b), static_cast<float>(c),
-            rounded_up(gamma(64) * max_norm(v) * extent.direction +
+            rounded_up(gamma(64) * (max_norm(normal) * reach + std::fabs(c)) +
                        roundings(kCameraRoundings) * most + kFloatUnderflow)};
 }
 
 bool make_exact_camera_triangle(const CameraRays& camera, const Triangle& triangle, bool front_only,
                                 CameraTriangle& out) {
-    const ExactPlane plane(triangle, camera.eye);
+    const ExactPlane plane(triangle, camera);
     const int sign = plane.constant.sign();
     if (sign == 0 || (front_only && sign > 0)) return false;
     const auto put = [&](int i, const PixelFunction& f) {
@@ -51,22 +67,23 @@ bool make_exact_camera_triangle(const CameraRays& camera, const Triangle& triang
         out.c[i] = f.c;
         out.e[i] = f.e;
     };
-    const ExactVector eye(camera.eye);
-    const ExactVector corner[3] = {ExactVector(triangle.a) - eye, ExactVector(triangle.b) - eye,
-                                   ExactVector(triangle.c) - eye};
+    const ExactVector anchor(camera.anchor);
+    const ExactVector corner[3] = {ExactVector(triangle.a) - anchor,
+                                   ExactVector(triangle.b) - anchor,
+                                   ExactVector(triangle.c) - anchor};
     // Edge functions may have any positive factor.
-    for (int i = 0; i < 3; ++i)
-        put(i,
-            along_rays(camera,
-                       ScaledVector(cross(corner[(i + 1) % 3], corner[(i + 2) % 3])).value * sign));
-    const ScaledVector normal(plane.normal);
-    const WideDouble constant = plane.constant.approximate();
-    const WideDouble inverse =
-        WideDouble(1, normal.exponent) / (constant * WideDouble(camera.scale));
+    for (int i = 0; i < 3; ++i) {
+        const ExactVector& p = corner[(i + 1) % 3];
+        const ExactVector& q = corner[(i + 2) % 3];
+        const ExactVector normal =
+            camera.parallel ? cross(ExactVector(camera.forward), q - p) : cross(p, q);
+        put(i, along_rays(camera, {normal, from_anchor_of(normal, p, camera)}, sign));
+    }
+    const ScaledPlane scaled(plane.normal, plane.from_anchor);
+    const double factor = (WideDouble(1, scaled.exponent) / plane.constant.approximate()).rounded();
     constexpr double kLargest = 0x1p120;
-    const double factor = inverse.rounded();
-    if (std::fabs(factor) * CameraExtent(camera).direction < kLargest)
-        put(3, along_rays(camera, normal.value * factor));
+    if (std::fabs(factor) * (CameraExtent(camera).direction + 1) < kLargest)
+        put(3, along_rays(camera, scaled, factor));
     else
         put(3, {0, 0, 0, std::numeric_limits<float>::infinity()});
     return true;

@@ -8,20 +8,23 @@
 
 namespace nuvo {
 
-/// t = constant / normal.d is where the ray from the eye along d meets a triangle's plane.
+/// A triangle's plane as CameraRays sees it: q = (normal.p + from_anchor) / constant, with p the
+/// ray's direction in perspective, where from_anchor is 0, and its offset in a parallel projection.
 struct ExactPlane {
-    ExactPlane(const Triangle& triangle, const Point3& eye);
+    ExactPlane(const Triangle& triangle, const CameraRays& camera);
 
     ExactVector normal;
+    Exact from_anchor;
     Exact constant;
 };
 
-/// The vector times the power of two that brings its largest component between 1/2 and 1; each
-/// component within two roundings.
-struct ScaledVector {
-    explicit ScaledVector(const ExactVector& v);
+/// The numbers of normal.p + from_anchor times the power of two that brings the largest between 1/2
+/// and 1; each within two roundings.
+struct ScaledPlane {
+    ScaledPlane(const ExactVector& normal, const Exact& from_anchor);
 
-    Vector3 value;
+    Vector3 normal;
+    double from_anchor = 0;
     std::int64_t exponent = 0;  ///< of the factor's inverse
 };
 
@@ -33,9 +36,9 @@ struct PixelFunction {
     float c = 0;
     float e = 0;
 };
-/// d.v of the rays' directions d. Counts the roundings of v, and of the exact rays' directions,
-/// which were rounded in other ways.
-PixelFunction along_rays(const CameraRays& camera, const Vector3& v);
+/// Of a plane, times a factor. Counts the roundings of its numbers, and of the exact rays, which
+/// were rounded in other ways.
+PixelFunction along_rays(const CameraRays& camera, const ScaledPlane& plane, double factor);
 
 /// The record of a triangle of which double arithmetic cannot tell it. False: the eye lies in its
 /// plane or behind a front that alone is visible; from there it is never hit, and has no record.

@@ -15,10 +15,11 @@
 
 // Pixel boxes of 8 primitives at a time. The camera's axes are perpendicular and the view's has
 // length 1, so a point p seen from the eye lies at t = p.forward on the ray of the pixel
-// coordinates p.right / (|right|^2 t), p.down / (|down|^2 t). For a sphere the extreme slopes are
-// those of the two planes through the eye that touch it (Mara and McGuire 2013, "2D polyhedral
-// bounds of a clipped, perspective-projected 3D sphere"). Dot products are taken in double and
-// rounded; the rest is float.
+// coordinates p.right / (|right|^2 t), p.down / (|down|^2 t); in a parallel projection, p counted
+// from the anchor, on that of p.right / |right|^2, p.down / |down|^2. For a sphere the extreme
+// slopes are those of the two planes through the eye that touch it (Mara and McGuire 2013, "2D
+// polyhedral bounds of a clipped, perspective-projected 3D sphere"). Dot products are taken in
+// double and rounded; the rest is float.
 
 HWY_BEFORE_NAMESPACE();
 namespace nuvo::HWY_NAMESPACE {
@@ -34,13 +35,16 @@ class PixelBoxMaker {
                 camera.down * (1 / dot(camera.down, camera.down)), camera.forward},
           focal_{static_cast<float>(length(axis_[0])), static_cast<float>(length(axis_[1]))},
           first_{static_cast<float>(camera.center_x(0)), static_cast<float>(camera.center_y(0))},
+          parallel_(camera.parallel),
+          starts_at_(start_range(camera).high),
+          start_slack_(rounded_up(CameraExtent(camera).starts * gamma(8))),
           usable_(std::max(camera.resolution.width, camera.resolution.height) <= kMostBoxPixels &&
-                  std::max(focal_[0], focal_[1]) < kLongestFocal) {}
+                  std::max(focal_[0], focal_[1]) < (parallel_ ? kLargest : kLongestFocal)) {}
 
     /// Of triangles, from the coordinates of their corners in world space (a.x, a.y, a.z, b.x ...
     /// c.z).
-    HWY_INLINE void triangles(const double (&corners)[9][kGroup], const Point3& eye, double scale,
-                              PixelBox* out, std::size_t count) const {
+    HWY_INLINE void triangles(const double (&corners)[9][kGroup], const Point3& anchor,
+                              double scale, PixelBox* out, std::size_t count) const {
         Singles low[3];
         Singles high[3];
         Numbers reach(0.0);
@@ -49,7 +53,7 @@ class PixelBoxMaker {
             Numbers p[3];
             for (int axis = 0; axis < 3; ++axis) {
                 p[axis] = (Numbers::load(corners[3 * i + static_cast<std::size_t>(axis)]) -
-                           Numbers(eye[axis])) *
+                           Numbers(anchor[axis])) *
                           Numbers(scale);
                 reach = reach + abs(p[axis]);
             }
@@ -62,11 +66,12 @@ class PixelBoxMaker {
             low[k] = Singles(std::numeric_limits<float>::infinity());
             high[k] = -low[k];
             for (const auto& p : column) {
-                const Singles at = p[k] / p[2];
+                const Singles at = parallel_ ? p[k] : p[k] / p[2];
                 low[k] = min(low[k], at);
                 high[k] = max(high[k], at);
             }
         }
+        if (parallel_) return write_parallel(low, high, floats_from(reach), out, count);
         // Comparisons with NaN or infinity are false.
         const auto known = (low[2] > max(least, Singles(kLeast))) & (least < Singles(kLargest));
         write(low, high, known, high[2] < -least, Singles(1.0F) / low[2], out, count);
@@ -83,6 +88,21 @@ class PixelBoxMaker {
                               Numbers::load(column[2])};
         const Singles r = floats_from(Numbers::load(column[3]));
         const Singles z = along(2, p);
+        const Singles reach = floats_from(abs(p[0]) + abs(p[1]) + abs(p[2])) + r;
+        if (parallel_) {
+            const Singles rounded = reach * Singles(roundings(8));
+            const Singles slack = r + rounded;
+            Singles low[3] = {Singles(0.0F), Singles(0.0F), z - slack};
+            Singles high[3] = {Singles(0.0F), Singles(0.0F), z + slack};
+            for (int k = 0; k < 2; ++k) {
+                const Singles x = along(k, p);
+                const Singles spread = mul_add(r, Singles(focal_[k] * (1 + roundings(4))),
+                                               abs(x) * Singles(roundings(4)));
+                low[k] = x - spread;
+                high[k] = x + spread;
+            }
+            return write_parallel(low, high, reach, out, count);
+        }
         // (z - r)(z + r), where z > 2 r within 8 roundings.
         const Singles inverse = Singles(1.0F) / ((z - r) * (z + r));
         Singles low[2];
@@ -99,7 +119,6 @@ class PixelBoxMaker {
             low[k] = middle - spread - slack;
             high[k] = middle + spread + slack;
         }
-        const Singles reach = floats_from(abs(p[0]) + abs(p[1]) + abs(p[2])) + r;
         const Singles least = reach * Singles(kLeastDepth);
         const auto known =
             (z > r + r) & (z > max(least, Singles(kLeast))) & (least < Singles(kLargest));
@@ -118,10 +137,23 @@ class PixelBoxMaker {
     // products, which is 2^-34 of the view's depth.
     static constexpr float kMargin = 0x1p-6F;
     static constexpr float kLongestFocal = 0x1p24F;
+    // Of a parallel projection: dot products in double are off by less than 2^-50 of their terms.
+    static constexpr float kDoubleRoundings = 0x1p-50F;
+    static constexpr float kMostPixels = 0x1p40F;
 
     HWY_INLINE Singles along(int k, const Numbers (&p)[3]) const {
         return floats_from(mul_add(p[0], Numbers(axis_[k].x),
                                    mul_add(p[1], Numbers(axis_[k].y), p[2] * Numbers(axis_[k].z))));
+    }
+
+    // By the depths low[2] to high[2] from the anchor on, which is at most `reach` away.
+    HWY_INLINE void write_parallel(const Singles (&low)[3], const Singles (&high)[3],
+                                   const Singles& reach, PixelBox* out, std::size_t count) const {
+        const Singles slack = mul_add(reach, Singles(kDoubleRoundings), Singles(start_slack_));
+        const auto known = reach * Singles(std::max(focal_[0], focal_[1])) < Singles(kMostPixels);
+        const Singles farthest = -high[2] - abs(high[2]) * Singles(roundings(4)) - slack;
+        const auto behind = farthest > Singles(starts_at_);
+        write(low, high, known & ~behind, known & behind, slack - low[2], out, count);
     }
 
     // The pixels from low to high (in pixel coordinates), or none behind, or else all.
@@ -148,7 +180,7 @@ class PixelBoxMaker {
                 .store(end[k]);
         }
         select(all, Singles(std::numeric_limits<float>::infinity()),
-               nearest * Singles(1 + roundings(16)))
+               mul_add(abs(nearest), Singles(roundings(16)), nearest))
             .store(near);
         for (std::size_t i = 0; i < count; ++i) {
             const auto pack = [&](int k) {
@@ -162,6 +194,9 @@ class PixelBoxMaker {
     Vector3 axis_[3];  // p.axis[0 .. 1] / p.axis[2] is in pixels
     float focal_[2];   // the view's depth in pixels
     float first_[2];   // pixel coordinates of pixel 0
+    bool parallel_;
+    float starts_at_;
+    float start_slack_;
     bool usable_;
 };
 

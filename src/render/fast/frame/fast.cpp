@@ -20,7 +20,7 @@ FastOptions with_isa(FastOptions options) {
     return options;
 }
 
-// Where no tables can be made for the camera's rays.
+// Where floats tell nothing of the camera's rays.
 Image serial_picture(SerialTree& serial, const FastOptions& options, Resolution size) {
     serial.octree(options.progress);
     const RayGenerator rays(serial.scene().scene().camera, size);
@@ -63,7 +63,8 @@ FastTracer& FastTracer::operator=(FastTracer&&) noexcept = default;
 
 Image FastTracer::render(Resolution resolution, FastTimes* times) {
     const FastScene& fast = state_->fast;
-    if (!Frame::can_show(fast)) return serial_picture(state_->serial, state_->options, resolution);
+    if (!Frame::can_show(fast, resolution))
+        return serial_picture(state_->serial, state_->options, resolution);
     Frame frame(state_->serial, state_->options, resolution, times, state_->kept);
     Image image = frame.render();
     state_->table_bytes = frame.memory_bytes();
@@ -91,7 +92,7 @@ std::vector<RayAnswer> FastTracer::closest_hits_once(std::span<const Ray> rays) 
 
 RayCounts FastTracer::count_rays(Resolution resolution) const {
     const FastScene& fast = state_->fast;
-    if (Frame::can_show(fast))
+    if (Frame::can_show(fast, resolution))
         return nuvo::count_rays(fast, state_->options.isa, resolution, state_->options.progress);
     SerialTree& serial = state_->serial;
     const TraceCounts counts = count_events(fast.scene(), fast.primitives(), serial.octree(),

@@ -1,6 +1,7 @@
 #include "fast/frame/frame.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "fast/frame/frame_tables.h"
@@ -36,11 +37,11 @@ Frame::Frame(SerialTree& serial, const FastOptions& options, Resolution resoluti
 
 Frame::~Frame() { kept_.shading.emplace(std::move(tables_->surfaces.triangles)); }
 
-// Tables are for rays from one point.
-bool Frame::can_show(const FastScene& scene) {
-    const Camera& camera = scene.scene().camera;
-    return scene.is_ordinary() && !camera.window &&
-           max_norm(scene.frame().local(camera.position)) < kFarthestCamera;
+bool Frame::can_show(const FastScene& scene, Resolution resolution) {
+    if (!scene.is_ordinary()) return false;
+    const CameraRays camera(scene.scene().camera, resolution, scene.frame());
+    return max_norm(camera.origin) < kFarthestCamera &&
+           std::fabs(camera.starts_at) < kFarthestCamera && camera.is_sharp();
 }
 
 std::size_t Frame::memory_bytes() const {

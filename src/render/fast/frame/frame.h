@@ -23,7 +23,7 @@ class StageClock;
 class Frame {
   public:
     /// Whether floats tell enough of the scene as its camera sees it.
-    static bool can_show(const FastScene& scene);
+    static bool can_show(const FastScene& scene, Resolution resolution);
 
     /// Adds to `times` if it is given. Keeps references.
     Frame(SerialTree& serial, const FastOptions& options, Resolution resolution, FastTimes* times,

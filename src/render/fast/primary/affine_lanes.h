@@ -22,26 +22,26 @@ struct MiddlesAndHalves {
     OctantFloats distance[3];  ///< |middle|
 };
 
-/// f . (p - eye) at points of the local frame. [numerics: voxels seen by a macro tile]
+/// f . (p - origin) + constant in the local frame. [numerics: voxels seen by a macro tile]
 class Affine {
   public:
     Affine() = default;
     /// For coordinates up to `reach`; `size` bounds the terms whose sums are f's components.
-    Affine(const Vector3& f, const Vector3& size, const Point3& eye, double reach) {
-        double constant = 0;
-        double of_eye = 0;
-        double most = 0;
+    Affine(const Vector3& f, const Vector3& size, const Point3& origin, double reach,
+           double constant = 0) {
+        double of_constant = std::fabs(constant);
+        double most = of_constant;
         for (int axis = 0; axis < 3; ++axis) {
             const double term = std::fabs(size[axis]);
-            constant -= f[axis] * eye[axis];
-            of_eye += term * std::fabs(eye[axis]);
-            most += term * (reach + std::fabs(eye[axis]));
+            constant -= f[axis] * origin[axis];
+            of_constant += term * std::fabs(origin[axis]);
+            most += term * (reach + std::fabs(origin[axis]));
             f_[axis] = static_cast<float>(f[axis]);
             error_[axis] = rounded_up(roundings(kRoundings) * term);
             spread_[axis] = std::fabs(f_[axis]) + error_[axis];
         }
         constant_ = static_cast<float>(constant);
-        constant_error_ = rounded_up(roundings(kRoundings) * of_eye + kFloatUnderflow);
+        constant_error_ = rounded_up(roundings(kRoundings) * of_constant + kFloatUnderflow);
         usable_ = most < kLargest;
     }
     /// Whether no sum is beyond floats.

@@ -17,15 +17,15 @@
 HWY_BEFORE_NAMESPACE();
 namespace nuvo::HWY_NAMESPACE {
 
-/// What has to be beaten in a macro tile, in 1 / t: the least near_low of each block, of each tile
+/// What has to be beaten in a macro tile: in q, the least near_low of each block, of each tile
 /// and of all (Greene, Kass and Miller 1993, "Hierarchical Z-buffer visibility"). Less where hits
 /// have changed since the last update().
 class DepthPyramid {
   public:
     /// Of a tile that shows nothing yet; its `inside` is known.
-    explicit DepthPyramid(const MacroTile& tile) : tile_(tile) {
+    DepthPyramid(const MacroTile& tile, float background) : tile_(tile) {
         for (int b = 0; b < MacroTile::kBlocks; ++b)
-            blocks_[b] = tile.inside[b] != 0 ? 0 : std::numeric_limits<float>::infinity();
+            blocks_[b] = tile.inside[b] != 0 ? background : std::numeric_limits<float>::infinity();
         for (int t = 0; t < MacroTile::kTiles; ++t) update_tile(t);
         all_ = lowest(Floats::load(tiles_));
     }

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 
+#include "fast/camera/camera_tables.h"
 #include "fast/primary/affine_lanes.h"
 #include "fast/primary/macro_tile.h"
 #include "fast/simd/lanes.h"
@@ -22,8 +23,8 @@
 // Kass and Miller 1993, "Hierarchical Z-buffer visibility").
 //
 // A point p at the depth z = p.forward from the eye is seen A / z pixels from the macro tile's
-// middle, A and z being affine in p. Over a box an affine function is its value in the middle, more
-// or less the sum of |coefficient| half width.
+// middle, A and z being affine in p; in a parallel projection z is 1 everywhere. Over a box an
+// affine function is its value in the middle, more or less the sum of |coefficient| half width.
 
 HWY_BEFORE_NAMESPACE();
 namespace nuvo::HWY_NAMESPACE {
@@ -39,19 +40,22 @@ struct BlockRange {
     int last_row() const { return static_cast<int>(packed >> 12 & 15); }
 };
 
-/// The pyramid of the rays of a macro tile.
+/// The pyramid of the rays of a macro tile, in a parallel projection their prism.
 class Frustum {
   public:
     /// Where the octants of a voxel can be seen.
     struct Seen {
         float range[8];    ///< BlockRange as a float
-        float nearest[8];  ///< bounds 1 / t of what is in it from above
+        float nearest[8];  ///< bounds q of what is in it from above
     };
 
     /// For points whose local coordinates are at most `reach`.
-    Frustum(const CameraRays& camera, const MacroTile& tile, double reach) {
-        const Vector3& forward = camera.forward;
-        depth_ = Affine(forward, forward, camera.origin, reach);
+    Frustum(const CameraRays& camera, const MacroTile& tile, double reach)
+        : parallel_(camera.parallel), starts_at_(start_range(camera).high) {
+        // Zero where the depth does not grow with the way.
+        const Vector3 forward = parallel_ ? Vector3{} : camera.forward;
+        depth_ = Affine(forward, forward, camera.origin, reach, parallel_ ? 1 : 0);
+        if (parallel_) toward_ = Affine(-camera.forward, camera.forward, camera.origin, reach);
         const double middle[2] = {camera.center_x(tile.x) + kMiddle,
                                   camera.center_y(tile.y) + kMiddle};
         const Vector3 step[2] = {camera.right, camera.down};
@@ -62,7 +66,7 @@ class Frustum {
             Vector3 size;
             for (int axis = 0; axis < 3; ++axis)
                 size[axis] = std::fabs(pixels[axis]) + std::fabs(forward[axis] * middle[k]);
-            across_[k] = Affine(across[k], size, camera.origin, reach);
+            across_[k] = Affine(across[k], size, camera.origin, reach, parallel_ ? -middle[k] : 0);
             // Positive before the eye on the inner side of an edge of the pyramid, a pixel and a
             // half outside of the outermost rays.
             constexpr double kBeyond = kMiddle + 1.5;
@@ -140,6 +144,12 @@ class Frustum {
         const OctantFloats columns = mul_add(block(last[0]), sixteen, block(first[0]));
         select(anywhere, OctantFloats(BlockRange::kAll), mul_add(rows, sixteen * sixteen, columns))
             .store(seen.range);
+        if (parallel_) {
+            const OctantFloats toward = toward_.at(boxes.middle);
+            const OctantFloats reach = toward_.spread(boxes);
+            (toward + reach).store(seen.nearest);
+            return octants & (toward - reach < OctantFloats(starts_at_)).bits();
+        }
         select(anywhere, OctantFloats(std::numeric_limits<float>::infinity()),
                by_near * OctantFloats(1 + roundings(4)))
             .store(seen.nearest);
@@ -207,6 +217,9 @@ class Frustum {
         return (first > last) | (first > Numbers(kMacroSide - 1)) | (last < Numbers(0.0F));
     }
 
+    bool parallel_;
+    float starts_at_;
+    Affine toward_;  // q, of a parallel projection
     Affine depth_;
     Affine across_[2];
     Affine sides_[4];

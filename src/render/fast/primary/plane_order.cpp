@@ -5,16 +5,18 @@
 namespace nuvo {
 
 PixelFunction PlaneOrders::order_of(Slot first, Slot second) const {
-    const ExactPlane p(scene_.triangle(first), camera_.eye);
-    const ExactPlane q(scene_.triangle(second), camera_.eye);
+    const ExactPlane p(scene_.triangle(first), camera_);
+    const ExactPlane q(scene_.triangle(second), camera_);
     const int sign = p.constant.sign() * q.constant.sign();
     if (sign == 0) return {0, 0, 0, std::numeric_limits<float>::infinity()};
     const ExactVector difference{p.normal.x * q.constant - q.normal.x * p.constant,
                                  p.normal.y * q.constant - q.normal.y * p.constant,
                                  p.normal.z * q.constant - q.normal.z * p.constant};
-    const Vector3 m = ScaledVector(difference).value * sign;
-    if (m == Vector3{}) return {0, 0, scene_.id(first) < scene_.id(second) ? 1.0F : -1.0F, 0};
-    return along_rays(camera_, m);
+    const Exact constant = p.from_anchor * q.constant - q.from_anchor * p.constant;
+    const ScaledPlane m(difference, constant);
+    if (m.normal == Vector3{} && m.from_anchor == 0)
+        return {0, 0, scene_.id(first) < scene_.id(second) ? 1.0F : -1.0F, 0};
+    return along_rays(camera_, m, sign);
 }
 
 }  // namespace nuvo

@@ -5,8 +5,8 @@
 #include "fast/tile/pair_cache.h"
 
 // Which of two triangles is nearer, for all pixels at once. On the ray of the pixel coordinates X,
-// Y the planes of two triangles are met at t and t'; the difference 1 / t - 1 / t' is affine in X,
-// Y, as each of them is, but where the planes nearly coincide floats and doubles lose it. Made from
+// Y the planes of two triangles are met at q and q'; the difference q - q' is affine in X, Y, as
+// each of them is, but where the planes nearly coincide floats and doubles lose it. Made from
 // exact arithmetic once for a pair, it has all its digits. [numerics: coincident triangles]
 
 namespace nuvo {

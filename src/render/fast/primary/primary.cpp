@@ -46,7 +46,8 @@ std::uint32_t lanes_inside(int b, int width, int height) {
 }
 
 // Shows nothing; lanes outside of the picture get a hit nearer than any.
-void clear(MacroTile& tile, Resolution picture) {
+void clear(MacroTile& tile, const CameraRays& camera) {
+    const Resolution picture = camera.resolution;
     const Floats outside(std::numeric_limits<float>::infinity());
     const Ints none(kNoSlot);
     for (int b = 0; b < MacroTile::kBlocks; ++b) {
@@ -54,7 +55,8 @@ void clear(MacroTile& tile, Resolution picture) {
         const std::uint32_t inside = lanes_inside(b % kTileBlocks, picture.width - tile.tile_x(t),
                                                   picture.height - tile.tile_y(t));
         tile.inside[b] = static_cast<std::uint16_t>(inside);
-        const Floats near = select(RayMask::from_bits(inside), Floats(0.0F), outside);
+        const Floats near =
+            select(RayMask::from_bits(inside), Floats(camera.background()), outside);
         near.store(tile.near_low + b * kBlockLanes);
         near.store(tile.near_high + b * kBlockLanes);
         none.store(tile.slot + b * kBlockLanes);
@@ -72,7 +74,8 @@ class PrimaryTracer {
           box_maker_(job.camera),
           triangle_maker_(job.camera),
           corners_(job.scene),
-          pyramid_(tile) {}
+          pyramid_(tile, job.camera.background()),
+          starts_(start_range(job.camera)) {}
 
     void run() {
         const CompactOctree& octree = job_.scene.octree();
@@ -125,8 +128,9 @@ class PrimaryTracer {
         constexpr std::size_t kHalf = TriangleBatch::kSize;
         PixelBox boxes[kBatch];
         for (std::size_t half = 0; half * kHalf < count; ++half)
-            box_maker_.triangles(corners_.corners(half).corner, job_.camera.eye, job_.camera.scale,
-                                 boxes + half * kHalf, std::min(kHalf, count - half * kHalf));
+            box_maker_.triangles(corners_.corners(half).corner, job_.camera.anchor,
+                                 job_.camera.scale, boxes + half * kHalf,
+                                 std::min(kHalf, count - half * kHalf));
         for (std::size_t i = 0; i < count; ++i) queue_[BoxCulling::place(i)] = boxes[i];
         const std::size_t chosen = choose(count);
         CameraTriangle triangles[kBatch];
@@ -221,15 +225,20 @@ class PrimaryTracer {
     HWY_INLINE void take_triangle(Slot slot, int b, const Floats& inside, const Floats& q,
                                   float edge_error, float q_error) {
         const Candidates found(tile_, b, q - Floats(q_error), q + Floats(q_error));
-        const RayMask perhaps = (inside >= Floats(-edge_error)) & found.perhaps_nearer;
+        RayMask perhaps = (inside >= Floats(-edge_error)) & found.perhaps_nearer;
         if (!perhaps.any()) return;
-        const RayMask sure = (inside > Floats(edge_error)) & found.surely_nearer;
+        RayMask met = inside > Floats(edge_error);
+        if (job_.camera.parallel) {
+            perhaps = perhaps & (found.low <= Floats(starts_.high));
+            met = met & (found.high < Floats(starts_.low));
+        }
+        const RayMask sure = met & found.surely_nearer;
         const RayMask open = without(perhaps, sure);
         const std::uint32_t open_bits = open.bits() & tile_.inside[b];
         found.store(tile_, b, sure, slot);
         if (open_bits != 0) {
             if (job_.redo_exactly)
-                decide_triangle(slot, b, open_bits, (inside > Floats(edge_error)).bits(), found);
+                decide_triangle(slot, b, open_bits, met.bits(), found);
             else
                 found.store(tile_, b, open & (inside >= Floats(0.0F)), slot);
         }
@@ -364,6 +373,7 @@ class PrimaryTracer {
     TriangleMaker triangle_maker_;
     CornerFetch corners_;
     DepthPyramid pyramid_;
+    StartRange starts_;
     // Boxes of the items of a batch, those chosen, and the tiles where they may be seen.
     alignas(64) PixelBox queue_[kBatch] = {};
     std::int32_t chosen_[2 * kBatch];
@@ -375,7 +385,7 @@ class PrimaryTracer {
 };
 
 void trace_primary(PrimaryJob& job, MacroTile& tile, EllipsoidNormals* normals) {
-    clear(tile, job.camera.resolution);
+    clear(tile, job.camera);
     PrimaryTracer(job, tile, normals).run();
 }
 

@@ -47,13 +47,15 @@ struct TileRays {
         const double x = rays.center_x(tile_x) + kHalfTile;
         const double y = rays.center_y(tile_y) + kHalfTile;
         center = rays.direction(x, y);
+        if (rays.parallel) start = rays.offset(x, y);
     }
 
     const CameraRays& camera;
     Vector3 center;  ///< the direction through it
+    Vector3 start;   ///< from the anchor to where the ray through it starts
 };
 
-/// Bounds on 1 / t of a candidate against those of the nearest so far.
+/// Bounds on q of a candidate against those of the nearest so far.
 struct Candidates {
     HWY_INLINE Candidates(const MacroTile& tile, int block, const Floats& low_q,
                           const Floats& high_q)

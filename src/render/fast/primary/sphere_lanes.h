@@ -16,10 +16,11 @@
 #include "nuvo/math/error_bounds.h"
 
 // Spheres against the rays of a tile. Seen from the eye a sphere is a conic (Pharr, Jakob and
-// Humphreys 2016, section 3.2; Haines et al. 2019 for the form): with f from its centre to the eye
-// the discriminant |d|^2 r^2 - |f x d|^2 is a quadratic function of the pixel's offset from the
-// tile's middle, f . d an affine one. Their coefficients are computed in double, for 16 spheres at
-// a time, and rounded once: so the error is in proportion to the tile, not to the distance.
+// Humphreys 2016, section 3.2; Haines et al. 2019 for the form): with f from its centre to where
+// the rays come from the discriminant |d|^2 r^2 - |f x d|^2 is a quadratic function of the pixel's
+// offset from the tile's middle, f . d an affine one, for d is affine, or in a parallel projection
+// f. Their coefficients are computed in double, for 16 spheres at a time, and rounded once: so the
+// error is in proportion to the tile, not to the distance.
 
 HWY_BEFORE_NAMESPACE();
 namespace nuvo::HWY_NAMESPACE {
@@ -43,11 +44,17 @@ class SphereConics {
         const Triple f = load(column);
         const Doubles r = Doubles::load(column[3]);
         const Floats cross_error = floats_from(Doubles::load(column[4]));
-        if (mapped)
-            set(f, r, cross_error, as_seen(seen, count, rays.center),
-                as_seen(seen, count, rays.camera.right), as_seen(seen, count, rays.camera.down));
+        const Vector3& right = rays.camera.right;
+        const Vector3& down = rays.camera.down;
+        if (rays.camera.parallel)
+            set_parallel(f, r, cross_error, as_seen(seen, count, rays.center),
+                         as_seen(seen, count, rays.start), as_seen(seen, count, right),
+                         as_seen(seen, count, down));
+        else if (mapped)
+            set(f, r, cross_error, as_seen(seen, count, rays.center), as_seen(seen, count, right),
+                as_seen(seen, count, down));
         else
-            set(f, r, cross_error, rays.center, rays.camera.right, rays.camera.down);
+            set(f, r, cross_error, rays.center, right, down);
     }
 
     /// The blocks of `blocks` in which the discriminant of sphere i is not surely negative.
@@ -78,7 +85,7 @@ class SphereConics {
     /// Of its root, at most.
     float root_error(std::size_t i) const { return root_error_[i]; }
 
-    /// f . d
+    /// f . d, in a parallel projection -f . d: q = (+-root - toward) inverse_power
     HWY_INLINE Floats toward(std::size_t i, const Floats& x, const Floats& y) const {
         return mul_add(Floats(b_x_[i]), x, mul_add(Floats(b_y_[i]), y, Floats(b_[i])));
     }
@@ -116,21 +123,51 @@ class SphereConics {
         const Triple y = cross(f, down);
         const auto gap =
             [&](const Direction& a, const Direction& b, const Triple& fa, const Triple& fb)
-                HWY_ATTR { return floats_from(r_square * dot(a, b) - dot(fa, fb)); };
-        const Floats two(2.0F);
-        const Floats d = gap(center, center, at, at);
-        const Floats d_x = two * gap(center, right, at, x);
-        const Floats d_y = two * gap(center, down, at, y);
-        const Floats d_xx = gap(right, right, x, x);
-        const Floats d_xy = two * gap(right, down, x, y);
-        const Floats d_yy = gap(down, down, y, y);
+                HWY_ATTR { return r_square * dot(a, b) - dot(fa, fb); };
+        const Doubles two(2.0);
+        const Doubles longest =
+            length(center) + Doubles(kHalfTile) * (length(right) + length(down));
+        set_discriminant(gap(center, center, at, at), two * gap(center, right, at, x),
+                         two * gap(center, down, at, y), gap(right, right, x, x),
+                         two * gap(right, down, x, y), gap(down, down, y, y), longest * longest,
+                         r_square, cross_error);
+        set_toward(dot(f, center), dot(f, right), dot(f, down), cross_error);
+    }
+
+    // For rays from `from` + `start` + x `right` + y `down`, each of which is seen as its own
+    // sphere sees it, along the direction d.
+    HWY_NOINLINE void set_parallel(const Triple& from, const Doubles& r, const Floats& cross_error,
+                                   const Triple& d, const Triple& start, const Triple& right,
+                                   const Triple& down) {
+        const Triple f{
+            {from.at[0] + start.at[0], from.at[1] + start.at[1], from.at[2] + start.at[2]}};
+        const Triple at = cross(f, d);
+        const Triple x = cross(right, d);
+        const Triple y = cross(down, d);
+        const Doubles square = dot(d, d);
+        const Doubles two(-2.0);
+        set_discriminant(mul_add(r * r, square, -dot(at, at)), two * dot(at, x), two * dot(at, y),
+                         -dot(x, x), two * dot(x, y), -dot(y, y), square, r * r, cross_error);
+        set_toward(-dot(f, d), -dot(right, d), -dot(down, d), cross_error);
+    }
+
+    // The discriminant's coefficients; `square` bounds |d|^2.
+    HWY_INLINE void set_discriminant(const Doubles& constant, const Doubles& by_x,
+                                     const Doubles& by_y, const Doubles& by_xx,
+                                     const Doubles& by_xy, const Doubles& by_yy,
+                                     const Doubles& square, const Doubles& r_square,
+                                     const Floats& cross_error) {
+        const Floats d = floats_from(constant);
+        const Floats d_x = floats_from(by_x);
+        const Floats d_y = floats_from(by_y);
+        const Floats d_xx = floats_from(by_xx);
+        const Floats d_xy = floats_from(by_xy);
+        const Floats d_yy = floats_from(by_yy);
         const Floats m(kHalfTile);
         const Floats size =
             mul_add(mul_add(abs(d_xx) + abs(d_xy) + abs(d_yy), m, abs(d_x) + abs(d_y)), m, abs(d));
-        const Doubles longest =
-            length(center) + Doubles(kHalfTile) * (length(right) + length(down));
         const Floats error =
-            error_of(floats_from(longest * longest), size, floats_from(r_square), cross_error);
+            error_of(floats_from(square), size, floats_from(r_square), cross_error);
         // Beyond floats no sum of the terms, at most 2^21 errors, means anything; nor of NaN.
         const RayMask known = error < Floats(kLargest);
         const Floats zero(0.0F);
@@ -143,14 +180,17 @@ class SphereConics {
         const Floats bound = select(known, error, Floats(std::numeric_limits<float>::infinity()));
         bound.store(error_);
         (sqrt(bound + bound) * Floats(1 + roundings(4))).store(root_error_);
-        const Floats b = floats_from(dot(f, center));
-        const Floats b_x = floats_from(dot(f, right));
-        const Floats b_y = floats_from(dot(f, down));
+    }
+    HWY_INLINE void set_toward(const Doubles& constant, const Doubles& by_x, const Doubles& by_y,
+                               const Floats& cross_error) {
+        const Floats b = floats_from(constant);
+        const Floats b_x = floats_from(by_x);
+        const Floats b_y = floats_from(by_y);
         b.store(b_);
         b_x.store(b_x_);
         b_y.store(b_y_);
-        mul_add(mul_add(abs(b_x) + abs(b_y), m, abs(b)), Floats(roundings(8)), cross_error)
-            .store(b_error_);
+        const Floats size = mul_add(abs(b_x) + abs(b_y), Floats(kHalfTile), abs(b));
+        mul_add(size, Floats(roundings(8)), cross_error).store(b_error_);
     }
 
     static HWY_INLINE Triple cross(const Triple& f, const Vector3& d) {
@@ -201,7 +241,8 @@ class SphereConics {
     alignas(64) float b_error_[kMost];
 };
 
-/// Where 16 rays meet a sphere: 1 / t = (-f.d +- root) / (f.f - r^2).
+/// Where 16 rays meet a sphere: in perspective q = (-f.d +- root) / (f.f - r^2), in a parallel
+/// projection q = (f.d + root) / d.d.
 struct SphereHits {
     HWY_INLINE SphereHits(const CameraSphere& s, const SphereConics& conics, std::size_t i,
                           const Floats& discriminant, const Floats& x, const Floats& y) {

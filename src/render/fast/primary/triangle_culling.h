@@ -29,9 +29,10 @@ class TriangleCulling {
     static constexpr std::size_t kBatch = 16;
 
     TriangleCulling(const FastScene& scene, const CameraRays& camera, const Frustum& frustum)
-        : scene_(scene), frustum_(frustum), eye_far_(0) {
+        : scene_(scene), frustum_(frustum), weight_(camera.parallel ? 0.0F : 1.0F), eye_far_(0) {
+        const Vector3 eye = camera.parallel ? -camera.forward : camera.origin;
         for (int axis = 0; axis < 3; ++axis) {
-            eye_[axis] = static_cast<float>(camera.origin[axis]);
+            eye_[axis] = static_cast<float>(eye[axis]);
             eye_far_ = std::max(eye_far_, std::fabs(eye_[axis]));
         }
     }
@@ -66,7 +67,7 @@ class TriangleCulling {
         for (int axis = 0; axis < 3; ++axis) {
             ab[axis] = at[1][axis] - at[0][axis];
             ac[axis] = at[2][axis] - at[0][axis];
-            from_eye[axis] = at[0][axis] - Floats(eye_[axis]);
+            from_eye[axis] = mul_add(at[0][axis], Floats(weight_), Floats(-eye_[axis]));
             edge = max(edge, max(abs(ab[axis]), abs(ac[axis])));
             distance = max(distance, abs(from_eye[axis]));
         }
@@ -77,14 +78,17 @@ class TriangleCulling {
                     mul_add(component(2, 0), from_eye[1], component(0, 1) * from_eye[2]));
         const Floats far = max(size[0], max(size[1], size[2]));
         const Floats more = mul_add(far, Floats(kCoordinateError), edge);
-        const Floats error = Floats(kBackError) * more *
-                             mul_add(more + far, distance, more * (far + Floats(eye_far_)));
+        const Floats error =
+            Floats(kBackError) * more *
+            mul_add(more + far, distance, more * mul_add(far, Floats(weight_), Floats(eye_far_)));
         return side > error + Floats(static_cast<float>(kFloatUnderflow));
     }
 
     const FastScene& scene_;
     const Frustum& frustum_;
+    // Homogeneous: eye_ / weight_; in a parallel projection infinitely far.
     float eye_[3];
+    float weight_;
     float eye_far_;  // its largest coordinate
 };
 

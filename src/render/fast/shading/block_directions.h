@@ -12,7 +12,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace nuvo::HWY_NAMESPACE {
 
-/// The ray directions of a block's lanes.
+/// The rays of a block's lanes.
 class BlockDirections {
   public:
     HWY_INLINE BlockDirections(const ShadingTables& tables, const Tile& tile, int b)
@@ -24,6 +24,11 @@ class BlockDirections {
     HWY_INLINE Floats at(int axis) const {
         return Floats::load_repeated(rays_.column[axis].data() + x_) +
                Floats::load(rays_.row[axis].data() + y_);
+    }
+    /// Where a ray of a parallel projection starts, within ShadingRays::start_error.
+    HWY_INLINE Floats start(int axis) const {
+        return Floats::load_repeated(rays_.start_column[axis].data() + x_) +
+               Floats::load(rays_.start_row[axis].data() + y_);
     }
     /// d.z for the background's zenith z.
     HWY_INLINE Floats height() const {

@@ -92,7 +92,9 @@ class TriangleFiller {
         const Wide3 a = load_wide(batch.corner);
         const Wide scale(scale_);
         WideTriangles t;
-        t.from = (a - wide(tables_.scene.scene().camera.position)) * scale;
+        const CameraRays& camera = tables_.camera;
+        t.a = (a - wide(camera.anchor)) * scale;
+        t.from = camera.parallel ? wide(camera.forward) : t.a;
         t.e1 = (load_wide(batch.corner + 3) - a) * scale;
         t.e2 = (load_wide(batch.corner + 6) - a) * scale;
         Wide3 n = cross(t.e1, t.e2);
@@ -107,7 +109,7 @@ class TriangleFiller {
         n = n * (Wide(1.0) / sqrt(square));
         // The side that the camera is on, seen from every point of the triangle.
         const Wide side = dot(n, t.from);
-        const Wide reach = norm1(t.from) + edges;
+        const Wide reach = camera.parallel ? norm1(t.from) : norm1(t.from) + edges;
         const auto sided = known & (abs(side) > reach * Wide(4 * kTriangleNormalError));
         const auto two_sided = Wide::load(surfaces_.two_sided) > Wide(0.0);
         const auto behind = side > Wide(0.0);

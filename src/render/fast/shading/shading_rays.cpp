@@ -24,32 +24,53 @@ double largest_step(const std::vector<float>& parts) {
 ShadingRays::ShadingRays(const CameraRays& camera, const Vector3& zenith) {
     const Resolution size = camera.resolution;
     const std::size_t width = whole_tiles(size.width);
-    const std::size_t height = whole_tiles(size.height);
+    const std::size_t height = whole_tiles(size.height) * kBlockSide;
+    const auto of_column = [&](const Vector3& step, std::size_t x) {
+        return step * camera.center_x(static_cast<int>(x));
+    };
+    const auto of_row = [&](const Vector3& first, const Vector3& step, std::size_t i) {
+        return first + step * camera.center_y(static_cast<int>(i / kBlockSide));
+    };
+    // Of directions.
+    const Vector3 right = camera.parallel ? Vector3{} : camera.right;
+    const Vector3 down = camera.parallel ? Vector3{} : camera.down;
     for (int axis = 0; axis < 3; ++axis) {
         column[axis].resize(width);
-        row[axis].resize(height * kBlockSide);
+        row[axis].resize(height);
     }
     column_height.resize(width);
-    row_height.resize(height * kBlockSide);
+    row_height.resize(height);
     column_square.resize(width);
-    row_square.resize(height * kBlockSide);
+    row_square.resize(height);
     for (std::size_t x = 0; x < width; ++x) {
-        const Vector3 part = camera.right * camera.center_x(static_cast<int>(x));
+        const Vector3 part = of_column(right, x);
         for (int axis = 0; axis < 3; ++axis) column[axis][x] = static_cast<float>(part[axis]);
         column_height[x] = static_cast<float>(dot(part, zenith));
         column_square[x] = static_cast<float>(dot(part, part));
     }
-    for (std::size_t i = 0; i < height * kBlockSide; ++i) {
-        const Vector3 part =
-            camera.forward + camera.down * camera.center_y(static_cast<int>(i / kBlockSide));
+    for (std::size_t i = 0; i < height; ++i) {
+        const Vector3 part = of_row(camera.forward, down, i);
         for (int axis = 0; axis < 3; ++axis) row[axis][i] = static_cast<float>(part[axis]);
         row_height[i] = static_cast<float>(dot(part, zenith));
         row_square[i] = static_cast<float>(dot(part, part));
     }
+    if (camera.parallel) {
+        double farthest = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+            for (std::size_t x = 0; x < width; ++x)
+                start_column[axis].push_back(static_cast<float>(of_column(camera.right, x)[axis]));
+            for (std::size_t i = 0; i < height; ++i)
+                start_row[axis].push_back(
+                    static_cast<float>(of_row(camera.origin, camera.down, i)[axis]));
+            farthest += largest_step(start_column[axis]) + largest_step(start_row[axis]);
+        }
+        // Both parts' and their sum's.
+        start_error = rounded_up(roundings(2) * farthest + 3 * camera.start_error);
+    }
 
     // The longest column's part, row's part and sum; |forward| is 1 up to its roundings in double.
-    const double across = nuvo::length(camera.right) * 0.5 * size.width;
-    const double along = 1 + nuvo::length(camera.down) * 0.5 * size.height;
+    const double across = nuvo::length(right) * 0.5 * size.width;
+    const double along = 1 + nuvo::length(down) * 0.5 * size.height;
     // The sum of perpendicular parts a, b is at least (|a| + |b|) / sqrt(2).
     longest = rounded_up(kSlack * std::sqrt(across * across + along * along));
     error = rounded_up(roundings(1) * (across + along + static_cast<double>(longest)));
@@ -59,8 +80,8 @@ ShadingRays::ShadingRays(const CameraRays& camera, const Vector3& zenith) {
     // the axes lack of being perpendicular.
     const double parts = largest_step(column_height) + largest_step(row_height);
     const double y = std::min(1.0, parts);
-    const double skew = std::fabs(dot(camera.right, camera.forward)) * 0.5 * size.width +
-                        std::fabs(dot(camera.right, camera.down)) * 0.25 * size.width * size.height;
+    const double skew = std::fabs(dot(right, camera.forward)) * 0.5 * size.width +
+                        std::fabs(dot(right, down)) * 0.25 * size.width * size.height;
     sine_error = rounded_up(roundings(1) * (parts + 3 * y) + kInverseSqrtError * y + kSlack * skew);
 }
 
@@ -68,7 +89,8 @@ std::size_t ShadingRays::memory_bytes() const {
     std::size_t bytes = vector_bytes(column_height) + vector_bytes(row_height) +
                         vector_bytes(column_square) + vector_bytes(row_square);
     for (int axis = 0; axis < 3; ++axis)
-        bytes += vector_bytes(column[axis]) + vector_bytes(row[axis]);
+        bytes += vector_bytes(column[axis]) + vector_bytes(row[axis]) +
+                 vector_bytes(start_column[axis]) + vector_bytes(start_row[axis]);
     return bytes;
 }
 

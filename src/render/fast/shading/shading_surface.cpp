@@ -10,7 +10,7 @@
 #include "fast/simd/lanes.h"
 #include "fast/simd/vector_math.h"
 
-// Points of all lanes from 1 / t; words of their materials; and for spheres, interpolated normals
+// Points of all lanes from q; words of their materials; and for spheres, interpolated normals
 // and colors the slower way of smooth_normals.h.
 
 HWY_BEFORE_NAMESPACE();
@@ -83,6 +83,7 @@ class SurfaceFiller {
     // With w the relative width of the bounds on 1 / t, t is off by w / 2 + w^2 / 2 at most: 1 / (1
     // - w / 2) <= 1 + w / 2 + w^2 / 2 for w <= 1.
     HWY_INLINE void fill_points(int first, const BlockDirections& directions) {
+        if (tables_.camera.parallel) return fill_parallel_points(first, directions);
         const ShadingBounds& bounds = tables_.bounds;
         const Floats low = Floats::load(tile_.near_low + first);
         const Floats high = Floats::load(tile_.near_high + first);
@@ -100,6 +101,24 @@ class SurfaceFiller {
             mul_add(t, half + Floats(bounds.point_by_t),
                     mul_add(largest, Floats(roundings(2)), Floats(bounds.point_constant)));
         select(w < Floats(1.0F), error, Floats(kInfinity)).store(tile_.point_error + first);
+    }
+
+    // q is off by half of what its bounds are apart.
+    HWY_NOINLINE void fill_parallel_points(int first, const BlockDirections& directions) {
+        const ShadingBounds& bounds = tables_.bounds;
+        const Floats low = Floats::load(tile_.near_low + first);
+        const Floats high = Floats::load(tile_.near_high + first);
+        const Floats q = (low + high) * Floats(0.5F);
+        Floats largest(0.0F);
+        for (int axis = 0; axis < 3; ++axis) {
+            const Floats x = neg_mul_add(q, directions.at(axis), directions.start(axis));
+            x.store(tile_.point[axis] + first);
+            largest = max(largest, abs(x));
+        }
+        const Floats half = (high - low) * Floats(kSlack / 2 * tables_.rays.longest);
+        mul_add(abs(q), Floats(bounds.point_by_t),
+                mul_add(largest, Floats(roundings(2)), half + Floats(bounds.point_constant)))
+            .store(tile_.point_error + first);
     }
 
     HWY_INLINE void gather_normals(int first, const Ints& slot) {

@@ -251,14 +251,17 @@ void bound_points(ShadingTables& tables) {
     const ShadingRays& rays = tables.rays;
     ShadingBounds& bounds = tables.bounds;
     // P = o + t d: the rounding of o, and of the sum, which is added with P [fill_points]; of
-    // 1 / near, the mean that is near (2 u) and the product.
-    const double world = world_rounding(tables.scene, tables.scene.scene().camera.position);
-    bounds.point_constant =
-        rounded_up(kSlack * (roundings(1) * length(tables.camera.origin) + world));
-    bounds.point_by_t =
-        rounded_up(kSlack * (static_cast<double>(roundings(2 + 1) + kReciprocalError) *
-                                 static_cast<double>(rays.longest) +
-                             static_cast<double>(rays.error)));
+    // 1 / q, the mean that is q (2 u) and the product. In a parallel projection o is off as rays'
+    // starts are, and q is the mean itself.
+    const CameraRays& camera = tables.camera;
+    const double world = world_rounding(tables.scene, camera.anchor);
+    const double origin = camera.parallel ? static_cast<double>(rays.start_error)
+                                          : roundings(1) * length(camera.origin);
+    bounds.point_constant = rounded_up(kSlack * (origin + world));
+    const float estimate = camera.parallel ? 0 : kReciprocalError;
+    bounds.point_by_t = rounded_up(kSlack * (static_cast<double>(roundings(2 + 1) + estimate) *
+                                                 static_cast<double>(rays.longest) +
+                                             static_cast<double>(rays.error)));
     bounds.world_rounding = rounded_up(kSlack * world);
 }
 

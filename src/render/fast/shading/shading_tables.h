@@ -150,8 +150,8 @@ struct ShadingBackground {
 
 /// How far floats may be off in one picture.
 struct ShadingBounds {
-    float point_constant = 0;  ///< |P in float - P| <= this + t (point_by_t + ...) + P's rounding
-    float point_by_t = 0;
+    float point_constant = 0;  ///< |P in float - P| <= this + t (point_by_t + ...) + P's rounding;
+    float point_by_t = 0;      ///< of a parallel projection with |q| for t
     float world_rounding = 0;  ///< what P itself may be off for being rounded in world space
     float color_error = 0;     ///< of interpolated colors, times 255
 };

@@ -9,6 +9,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "fast/shading/block_directions.h"
 #include "fast/shading/shading.h"
@@ -66,7 +67,10 @@ class SmoothNormalLanes {
           center_x_(static_cast<float>(tables.camera.center_x(tile.x + lane_x(first_)))),
           center_y_(static_cast<float>(tables.camera.center_y(tile.y + lane_y(first_)))),
           first_direction_(tables.camera.direction(static_cast<double>(center_x_),
-                                                   static_cast<double>(center_y_))) {}
+                                                   static_cast<double>(center_y_))),
+          first_offset_(
+              tables.camera.offset(static_cast<double>(center_x_), static_cast<double>(center_y_))),
+          starts_(CameraExtent(tables.camera).starts) {}
 
     HWY_NOINLINE void fill(std::uint32_t lanes) {
         const Ints slots = Ints::load(tile_.slot + first_);
@@ -89,9 +93,11 @@ class SmoothNormalLanes {
     static constexpr float kInfinity = std::numeric_limits<float>::infinity();
     static constexpr float kSecondRound = 1 + roundings(8);
 
-    HWY_INLINE Doubles affine_dot(const Vector3& v) const {
-        return affine(dot(v, first_direction_), dot(v, tables_.camera.right),
-                      dot(v, tables_.camera.down));
+    // The function of the plane through a point with that normal. [camera_triangle_lanes.h]
+    HWY_INLINE Doubles plane_function(const Vector3& normal, const Point3& point) const {
+        const bool parallel = tables_.camera.parallel;
+        return affine(dot(normal, parallel ? first_offset_ - point : first_direction_),
+                      dot(normal, tables_.camera.right), dot(normal, tables_.camera.down));
     }
     // The lanes that are not `known` get NaN, and the fallback.
     HWY_INLINE void store_normal(const Floats (&n)[3], const RayMask& known, const Floats& error) {
@@ -110,27 +116,28 @@ class SmoothNormalLanes {
         Floats(error).store(tile_.point_error + first_, stored);
     }
 
-    // Directions first + right x + down y of the block's lanes.
+    // Directions first + right x + down y of the block's lanes; in a parallel projection all are
+    // `first`, and rays start at `start` + right x + down y from the anchor.
     struct Rays {
         Vector3 first;
+        Vector3 start;
         Vector3 right;
         Vector3 down;
         Floats d[3];
         Doubles square;  // d.d
         Floats inverse_square;
     };
-    static HWY_INLINE void set_up(Rays& rays, const Vector3& first, const Vector3& right,
-                                  const Vector3& down) {
-        rays.first = first;
-        rays.right = right;
-        rays.down = down;
-        rays.square = Doubles(0.0);
+    HWY_INLINE Rays rays_of(const Vector3& first, const Vector3& start, const Vector3& right,
+                            const Vector3& down) const {
+        const bool parallel = tables_.camera.parallel;
+        Rays out{first, start, right, down, {}, Doubles(0.0), {}};
         for (int i = 0; i < 3; ++i) {
-            const Doubles d = affine(first[i], right[i], down[i]);
-            rays.square = mul_add(d, d, rays.square);
-            rays.d[i] = floats_from(d);
+            const Doubles d = affine(first[i], parallel ? 0 : right[i], parallel ? 0 : down[i]);
+            out.square = mul_add(d, d, out.square);
+            out.d[i] = floats_from(d);
         }
-        rays.inverse_square = reciprocal(floats_from(rays.square));
+        out.inverse_square = reciprocal(floats_from(out.square));
+        return out;
     }
 
     static constexpr double kDigits = 0x1p28;
@@ -139,18 +146,22 @@ class SmoothNormalLanes {
         Floats n[3];
         RayMask known;
     };
-    // m = f x d with f from the centre of the unit sphere to the camera; the unit normal is (d x m
-    // -+ s d) / d.d with s^2 = d.d - m.m. (Haines et al. 2019, "Precision improvements for
-    // ray/sphere intersection".) s^2 is formed in double: below `noise` it is that, and where it is
-    // 2^28 times that its float is good to the last digit. In float |m| <= |d|, so d x m has the
-    // roundings of d and m and 3 more; s has its own, half of its square's and the root's 3.2, with
-    // d and the product 5.2; 1 / d.d, its product and the sum 3: all that is kSphereNormalError in
-    // units.
-    static HWY_INLINE UnitNormals unit_normals(const Vector3& f, bool inside, double noise,
-                                               const Rays& rays) {
+    // m = f x d with f from the centre of the unit sphere to where the rays come from; the unit
+    // normal is (d x m -+ s d) / d.d with s^2 = d.d - m.m. (Haines et al. 2019, "Precision
+    // improvements for ray/sphere intersection".) s^2 is formed in double: below `noise` it is that,
+    // and where it is 2^28 times that its float is good to the last digit. In float |m| <= |d|, so
+    // d x m has the roundings of d and m and 3 more; s has its own, half of its square's and the
+    // root's 3.2, with d and the product 5.2; 1 / d.d, its product and the sum 3: all that is
+    // kSphereNormalError in units.
+    // `scale` times `from` is f, from the anchor in a parallel projection.
+    HWY_INLINE UnitNormals unit_normals(const Vector3& from, double scale, bool inside,
+                                        double noise, const Rays& rays) const {
+        const bool parallel = tables_.camera.parallel;
+        const Vector3 f = (parallel ? from + rays.start : from) * scale;
         const Vector3 first = cross(f, rays.first);
-        const Vector3 right = cross(f, rays.right);
-        const Vector3 down = cross(f, rays.down);
+        const Vector3 right =
+            parallel ? cross(rays.right * scale, rays.first) : cross(f, rays.right);
+        const Vector3 down = parallel ? cross(rays.down * scale, rays.first) : cross(f, rays.down);
         Doubles rest = rays.square;
         Floats m[3];
         for (int i = 0; i < 3; ++i) {
@@ -176,18 +187,21 @@ class SmoothNormalLanes {
         constexpr double kCrossError = 0x1p-49;  // 8 roundings of f x d
         constexpr double kSideError = 0x1p-48;
         const Vector3 from{sphere.from[0], sphere.from[1], sphere.from[2]};
-        const Vector3 f = from * (1 / sphere.exact_radius);
+        const double scale = 1 / sphere.exact_radius;
+        const Vector3 f = from * scale;
         const double power = dot(f, f);
-        const bool inside = power < 1;
-        const bool sure = std::fabs(power - 1) > kSideError * (power + 1);
-        if (!rays_ready_) {  // the block's once for all its spheres
-            set_up(rays_, first_direction_, tables_.camera.right, tables_.camera.down);
-            rays_ready_ = true;
-        }
+        // All rays of a parallel projection start outside, or some start perhaps inside.
+        const bool outside = tables_.camera.parallel;
+        const bool inside = power < 1 && !outside;
+        const bool sure =
+            outside ? !sphere.floats_cannot_tell : std::fabs(power - 1) > kSideError * (power + 1);
+        if (!rays_)  // the block's once for all its spheres
+            rays_ =
+                rays_of(first_direction_, first_offset_, tables_.camera.right, tables_.camera.down);
         const auto longest = static_cast<double>(tables_.rays.longest);
-        const double noise = kCrossError * (1 + norm1(f)) * longest * longest;
-        const UnitNormals unit =
-            unit_normals(f, inside, sure ? noise : std::numeric_limits<double>::infinity(), rays_);
+        const double noise = kCrossError * (1 + norm1(f) + starts_ * scale) * longest * longest;
+        const UnitNormals unit = unit_normals(
+            from, scale, inside, sure ? noise : std::numeric_limits<double>::infinity(), *rays_);
         const Point3 center = tables_.camera.origin - from;
         const float radius = sphere.radius;
         const float turn = inside && !sphere.solid ? -1 : 1;
@@ -210,19 +224,21 @@ class SmoothNormalLanes {
     // whose length tells what their error counts. [numerics: ellipsoids as balls]
     HWY_INLINE void fill_ball(const BallMap& map, const CameraSphere& ball) {
         constexpr float kUnitError = kSphereNormalError + roundings(2);  // and the map's own
-        const Vector3 f = Vector3{ball.from[0], ball.from[1], ball.from[2]} * (1 / map.radius);
+        const Vector3 from{ball.from[0], ball.from[1], ball.from[2]};
+        const double scale = 1 / map.radius;
         const bool inside = ball.inverse_power < 0;
-        Rays rays;
-        set_up(rays, map.to_ball * first_direction_, map.to_ball * tables_.camera.right,
-               map.to_ball * tables_.camera.down);
+        const Rays rays =
+            rays_of(map.to_ball * first_direction_, map.to_ball * first_offset_,
+                    map.to_ball * tables_.camera.right, map.to_ball * tables_.camera.down);
         // F and G, not below f and d, carry 5 roundings of what the map may stretch; the map's own
         // error counts by |F x G|, not by |F| |G|.
-        const double longest =
-            length(rays.first) + kBlockSide * (length(rays.right) + length(rays.down));
+        const double steps = kBlockSide * (length(rays.right) + length(rays.down));
+        const double longest = length(rays.first) + (tables_.camera.parallel ? 0 : steps);
+        const double f = (max_norm(from) + map.stretch * starts_) * scale;
         const double noise =
             longest * longest *
-            (6 * (1 + 2 * max_norm(f)) * (2 * map.stretch * gamma(5) + gamma(8)) + 36 * map.error);
-        const UnitNormals unit = unit_normals(f, inside, noise, rays);
+            (6 * (1 + 2 * f) * (2 * map.stretch * gamma(5) + gamma(8)) + 36 * map.error);
+        const UnitNormals unit = unit_normals(from, scale, inside, noise, rays);
         const float turn = inside && !ball.solid ? -1 : 1;
         Floats normal[3];
         Floats point[3];
@@ -339,15 +355,19 @@ class SmoothNormalLanes {
         constexpr double kFullByte = 255;
         const Triangle t = mesh.triangle(index);
         const double scale = scene_.frame().scale;
-        const Vector3 from = (t.a - scene_.scene().camera.position) * scale;
+        const CameraRays& camera = tables_.camera;
+        const Vector3 a = (t.a - camera.anchor) * scale;
+        const Vector3 from = camera.parallel ? camera.forward : a;
         const Vector3 e1 = (t.b - t.a) * scale;
         const Vector3 e2 = (t.c - t.a) * scale;
-        const Doubles s = affine_dot(cross(e2, e1));
+        const Vector3 normal = cross(e2, e1);
+        const Doubles s =
+            camera.parallel ? Doubles(dot(normal, camera.forward)) : plane_function(normal, a);
         const Doubles inverse = precise_reciprocal(s);
-        const Doubles x = affine_dot(cross(from, e2)) * inverse;
-        const Doubles y = affine_dot(cross(e1, from)) * inverse;
+        const Doubles x = plane_function(cross(from, e2), a) * inverse;
+        const Doubles y = plane_function(cross(e1, from), a) * inverse;
         const double edges = norm1(e1) + norm1(e2);
-        const double noise = kTripleError * (norm1(from) + edges) * edges *
+        const double noise = kTripleError * (norm1(a) + edges + starts_) * edges *
                              static_cast<double>(tables_.rays.longest);
         const RayMask known =
             abs(floats_from(s)) >
@@ -381,12 +401,13 @@ class SmoothNormalLanes {
     float center_x_;
     float center_y_;
     Vector3 first_direction_;
+    Vector3 first_offset_;
+    double starts_;
     Floats smooth_[3];
     Floats smooth_error_;
     std::uint32_t smooth_bits_ = 0;
 
-    Rays rays_;
-    bool rays_ready_ = false;
+    std::optional<Rays> rays_;
 };
 
 }  // namespace nuvo::HWY_NAMESPACE

@@ -1,5 +1,6 @@
 #include "fast/tile/exact_fallback.h"
 
+#include <cmath>
 #include <limits>
 
 namespace nuvo {
@@ -21,11 +22,11 @@ std::optional<ExactFallback::Nearest> ExactFallback::nearer(int x, int y, Slot s
         const auto best = kernel_.hit_of(prepared, scene_.id(other));
         if (best && !kernel_.precedes(prepared, *hit, *best)) return std::nullopt;
     }
-    // The exact ray's direction has length 1, the local one's is that of camera_.direction().
-    const double scaled = length(camera_.direction(camera_.center_x(x), camera_.center_y(y))) /
-                          (hit->root.t * scene_.frame().scale);
-    const auto inverse = static_cast<float>(scaled);
-    Nearest nearest{inverse * (1 - kRounded), inverse * (1 + kRounded), {}};
+    const CameraRays::Near q = camera_.near(x, y, hit->root.t);
+    const auto value = static_cast<float>(q.value);
+    const float error = rounded_up(q.error);
+    const float share = std::copysign(kRounded, value);  // of infinities products only
+    Nearest nearest{value * (1 - share) - error, value * (1 + share) + error, {}};
     if (slot >= scene_.triangle_end()) {
         const Object& object = scene_.object(scene_.id(slot));
         // As of a solid, so that the normal stays turned outwards. [Tile::ellipsoid_normal]

@@ -11,6 +11,7 @@
 #include "crowd.h"
 #include "exact_kernel.h"
 #include "fast/scene/fast_scene.h"
+#include "fast/tile/camera_rays.h"
 #include "fast/tile/tile.h"
 #include "leaf_boxes.h"
 #include "surface_color.h"
@@ -34,8 +35,7 @@ class ExactFallback {
     /// What has been found so far, of use for other pictures.
     StageCounts& stage_counts() { return kernel_.stage_counts(); }
 
-    /// A hit found exactly: bounds on 1 / t in the local frame, and for a quadric its
-    /// normal.
+    /// A hit found exactly: bounds on q, and for a quadric its normal.
     struct Nearest {
         float low;
         float high;

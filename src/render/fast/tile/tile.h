@@ -4,7 +4,6 @@
 #include <cstdint>
 
 #include "fast/scene/fast_scene.h"
-#include "nuvo/scene/camera.h"
 
 // The state of one tile of the picture while the stages of the fast tracer work on it: primary
 // rays, surfaces, and for each light samples, shadows and sums. Lanes stand block by block, a block
@@ -25,15 +24,14 @@ constexpr int lane_y(int lane) { return (lane / 64) * 4 + lane / 4 % 4; }
 /// One bit for each lane of each block: bit i of [b] is lane 16 b + i.
 using TileMask = std::array<std::uint16_t, kTileBlocks>;
 
-/// Unless said otherwise lengths are those of the local frame; t counts in units of the ray's
-/// unnormalized direction (CameraRays::direction), whose component along the view is 1.
+/// Unless said otherwise lengths are those of the local frame.
 struct alignas(64) Tile {
     int x = 0;  ///< the tile's first pixel
     int y = 0;
     TileMask inside;  ///< lanes that are pixels of the picture
 
     // Primary rays: kTileLanes numbers each, of the macro tile. The nearest primitive is decided
-    // exactly; bounds on 1 / t of its hit.
+    // exactly; bounds on q of its hit. [CameraRays]
     const Slot* slot;  ///< kNoSlot: the background
     const float* near_low;
     const float* near_high;
@@ -45,36 +43,6 @@ struct alignas(64) Tile {
     float point[3][kTileLanes];
     float point_error[kTileLanes];  ///< bounds |point - SurfacePoint::point| on each axis
     float normal[3][kTileLanes];    ///< for shading: unit, turned as shading_normal() turns it
-};
-
-/// The primary rays of a picture as an affine function of the pixel, which RayGenerator's are but
-/// for their length: [eq. 34, 35] in double, in the local frame.
-struct CameraRays {
-    CameraRays(const Camera& camera, Resolution size, const LocalFrame& frame)
-        : resolution(size),
-          rays(camera, size),
-          eye(camera.position),
-          scale(frame.scale),
-          origin(frame.local(camera.position)),
-          forward(camera.forward),
-          right(rays.step_right()),
-          down(rays.step_down()) {}
-
-    /// Pixel coordinates count from the picture's centre: X = x + 0.5 - width / 2.
-    Vector3 direction(double from_center_x, double from_center_y) const {
-        return forward + right * from_center_x + down * from_center_y;
-    }
-    double center_x(int x) const { return x + 0.5 - 0.5 * resolution.width; }
-    double center_y(int y) const { return y + 0.5 - 0.5 * resolution.height; }
-
-    Resolution resolution;
-    RayGenerator rays;  ///< the exact rays, in world space
-    Point3 eye;         ///< world space
-    double scale;       ///< of the local frame
-    Point3 origin;
-    Vector3 forward;
-    Vector3 right;  ///< to the next pixel of the row
-    Vector3 down;   ///< to the next row
 };
 
 }  // namespace nuvo
