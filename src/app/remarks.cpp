@@ -73,7 +73,7 @@ struct Met {
     std::size_t alight = 0;  ///< where some light adds to what is emitted
 };
 
-Met met_by(const Scene& scene, const Image& picture, const Answers& answers) {
+Met met_by(const Scene& scene, const Image& picture, const Suspicion& may, const Answers& answers) {
     std::unordered_map<std::int64_t, const Material*> materials;
     for (const Object& object : scene.objects) {
         const Material& material = scene.materials[object.material];
@@ -85,23 +85,30 @@ Met met_by(const Scene& scene, const Image& picture, const Answers& answers) {
     }
     const RayGenerator generator(scene.camera, {picture.width(), picture.height()});
     const Pixels pixels(picture);
-    // All in one call: what a tracer learns from ray to ray it forgets from call to call.
+    const auto ask = [&](std::uint64_t end, Met& met) {
+        std::vector<Ray> rays;
+        for (std::uint64_t i = met.asked; i < end; ++i)
+            rays.push_back(generator.ray(pixels.x(i), pixels.y(i)));
+        const std::vector<RayAnswer> found = answers(rays);
+        for (const RayAnswer& answer : found) {
+            const std::uint64_t i = met.asked++;
+            if (!answer.hit) continue;
+            ++met.any;
+            const auto material = materials.find(answer.shape);
+            if (material == materials.end()) continue;
+            ++met.lit;
+            if (packed(picture.at(pixels.x(i), pixels.y(i))) !=
+                packed(quantized(material->second->emissive_color)))
+                ++met.alight;
+        }
+    };
+    // Few tell, unless nothing is met. The others in one call: what a tracer learns from ray to ray
+    // it forgets from call to call.
+    constexpr std::uint64_t kFew = 1 << 10;
     constexpr std::uint64_t kMost = 1 << 16;
-    std::vector<Ray> rays(std::min(pixels.count(), kMost));
-    for (std::size_t i = 0; i < rays.size(); ++i) rays[i] = generator.ray(pixels.x(i), pixels.y(i));
-    const std::vector<RayAnswer> found = answers(rays);
     Met met;
-    met.asked = rays.size();
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        if (!found[i].hit) continue;
-        ++met.any;
-        const auto material = materials.find(found[i].shape);
-        if (material == materials.end()) continue;
-        ++met.lit;
-        if (packed(picture.at(pixels.x(i), pixels.y(i))) !=
-            packed(quantized(material->second->emissive_color)))
-            ++met.alight;
-    }
+    ask(std::min(pixels.count(), kFew), met);
+    if (met.any == 0 && may.empty) ask(std::min(pixels.count(), kMost), met);
     return met;
 }
 
@@ -131,7 +138,7 @@ bool sees_back(const TriangleMesh& mesh, const Ray& ray) {
 /// round shapes are seen from within alone.)
 bool meets_backs(const Scene& scene, const Image& picture) {
     constexpr std::uint64_t kMostRays = 1 << 10;
-    constexpr std::uint64_t kMostTests = 1 << 22;
+    constexpr std::uint64_t kMostTests = 1 << 20;
     std::uint64_t items = scene.objects.size() + 1;
     for (const Object& object : scene.objects)
         if (const auto* mesh = std::get_if<TriangleMesh>(&object.shape))
@@ -212,8 +219,8 @@ std::vector<std::string> remarks(const Scene& scene, const Options& options, con
     std::vector<std::string> lines;
     const Suspicion may = suspicion(scene, picture);
     if (may.empty || may.dark) {
-        const Met met = met_by(scene, picture, answers);
-        if (met.any == 0)
+        const Met met = met_by(scene, picture, may, answers);
+        if (met.any == 0 && may.empty)
             lines.push_back(nothing_met(scene, options, profile, met, picture));
         else if (may.dark && met.lit > 0 && met.alight == 0)
             lines.push_back(all_dark(scene));

@@ -1,8 +1,7 @@
 #include "compact_sweep.h"
 
-#include <limits>
-
 #include "box_lanes.h"
+#include "nuvo/math/error_bounds.h"
 
 // The sweep of each axis: the cost of a plane at x is LSA(x) L(x) + RSA(x) R(x), with the areas of
 // the two sides and the numbers of items that begin below and end above the plane [eq. 11, items on
@@ -16,7 +15,6 @@
 namespace nuvo {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 // Of more items a sample of at least this size decides.
 constexpr std::size_t kSample = 1024;
 // How far into a gap the plane moves: 8 units in the last place of the largest local coordinates,
@@ -32,8 +30,8 @@ class Bins {
           bins_per_width_(splat(kBins) / (high_ - low_)) {
         for (int i = 0; i < kBins; ++i) {
             begins_[i] = ends_[i] = FourInts{};
-            first_begin_[i] = splat(kInfinity);
-            last_end_[i] = splat(-kInfinity);
+            first_begin_[i] = splat(kFloatInfinity);
+            last_end_[i] = splat(-kFloatInfinity);
         }
     }
 

@@ -1,8 +1,8 @@
 #include "nuvo/octree/midpoint.h"
+#include "nuvo/math/error_bounds.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace nuvo {
 
@@ -93,7 +93,7 @@ double swept_plane(const SplitQuery& query, int axis) {
     };
 
     double best_plane = box.center()[axis];
-    double best_cost = std::numeric_limits<double>::infinity();
+    double best_cost = kInfinity;
     const auto consider = [&](double plane) {
         // Nearer to a face it would cut off nothing but a sliver.
         if (!(plane - box.min[axis] >= 4 * clearance && box.max[axis] - plane >= 4 * clearance))

@@ -1,6 +1,6 @@
 #include <algorithm>
-#include <limits>
 
+#include "nuvo/math/error_bounds.h"
 #include "nuvo/octree/midpoint.h"
 
 namespace nuvo {
@@ -12,8 +12,8 @@ constexpr double kClose = 0.25;
 
 // Where on one axis the items lie that a plane can part from others: those that end within.
 struct Extent {
-    double low = std::numeric_limits<double>::infinity();
-    double high = -std::numeric_limits<double>::infinity();
+    double low = kInfinity;
+    double high = -kInfinity;
 
     Extent(const SplitQuery& query, int axis) {
         const Bounds3& voxel = query.voxel.bounds;

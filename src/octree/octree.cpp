@@ -1,7 +1,7 @@
 #include "nuvo/octree/octree.h"
+#include "nuvo/math/error_bounds.h"
 
 #include <algorithm>
-#include <limits>
 #include <ostream>
 #include <string>
 
@@ -15,7 +15,7 @@ constexpr float kMaxLoadFactor = 0.5F;
 
 Octree::Octree(std::vector<Node> nodes, std::vector<ItemId> items, std::optional<int> depth_tried)
     : nodes_(std::move(nodes)), items_(std::move(items)), depth_tried_(depth_tried) {
-    smallest_width_ = std::numeric_limits<double>::infinity();
+    smallest_width_ = kInfinity;
     for (NodeIndex i = 0; i < nodes_.size(); ++i) {
         const Node& node = nodes_[i];
         depth_ = std::max(depth_, label_digits(node.label) + 1);
@@ -24,7 +24,7 @@ Octree::Octree(std::vector<Node> nodes, std::vector<ItemId> items, std::optional
         for (int axis = 0; axis < 3; ++axis)
             if (w[axis] > 0) smallest_width_ = std::min(smallest_width_, w[axis]);
     }
-    if (smallest_width_ == std::numeric_limits<double>::infinity()) smallest_width_ = 0;
+    if (smallest_width_ == kInfinity) smallest_width_ = 0;
 }
 
 std::size_t Octree::memory_bytes() const {
@@ -45,7 +45,7 @@ Point3 Octree::point_next_voxel(const Ray& ray) const {
     const std::optional<NodeIndex> leaf = find_leaf(ray.origin);
     if (!leaf) return ray.origin;
     const Bounds3& box = nodes_[*leaf].voxel.bounds;
-    double exit = std::numeric_limits<double>::infinity();
+    double exit = kInfinity;
     for (int axis = 0; axis < 3; ++axis) {
         const double d = ray.direction[axis];
         if (d != 0)

@@ -1,8 +1,7 @@
 #include "nuvo/render/explain.h"
 
-#include <limits>
-
 #include "chosen.h"
+#include "nuvo/math/error_bounds.h"
 #include "storyteller.h"
 #include "tracer.h"
 
@@ -92,7 +91,7 @@ PixelStory explain_pixel(const Scene& scene, const Primitives& primitives, const
     PixelStory story;
     Storyteller teller;
     const Ray ray = RayGenerator(scene.camera, resolution).ray(x, y);
-    teller.begin(story.primary, ray, std::numeric_limits<double>::infinity());
+    teller.begin(story.primary, ray, kInfinity);
     with_kernel(scene, primitives, profile, [&](const auto& plain) {
         const TellingKernel kernel(plain, teller);
         Listener listener(scene, kernel, teller, story);

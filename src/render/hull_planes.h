@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "nuvo/geometry/predicates.h"
+#include "nuvo/math/error_bounds.h"
 
 namespace nuvo {
 
@@ -31,7 +32,7 @@ class HullPlanes {
     bool surely_missed(const ExactRay& ray) const {
         constexpr double kDown = 1 - gamma(4);
         double first = 0;
-        double last = std::numeric_limits<double>::infinity();
+        double last = kInfinity;
         for (int i = 0; i < count_; ++i) {
             // All of it that lies behind the plane: t speed <= room.
             const Vector3& out = planes_[i].out;
@@ -63,7 +64,7 @@ class HullPlanes {
 
     struct Plane {
         Vector3 out;
-        double height = -std::numeric_limits<double>::infinity();
+        double height = -kInfinity;
     };
     Plane planes_[kPlanes];
     int count_ = 0;

@@ -1,9 +1,9 @@
 #include "nuvo/render/planes.h"
 
-#include <limits>
 #include <type_traits>
 
 #include "chosen.h"
+#include "nuvo/math/error_bounds.h"
 #include "tracer.h"
 
 namespace nuvo {
@@ -94,7 +94,7 @@ PixelPlanes record_planes(const Scene& scene, const Primitives& primitives, cons
             for (int x = 0; x < resolution.width; ++x) {
                 const TraceCounts before = counts;
                 const PredicateCounts stages = stages_of(kernel);
-                planes.t.push_back(std::numeric_limits<double>::infinity());
+                planes.t.push_back(kInfinity);
                 planes.shape.push_back(-1);
                 planes.triangle.push_back(-1);
                 tracer.color(rays.ray(x, y),

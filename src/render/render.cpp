@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <type_traits>
 
 #include "chosen.h"
 #include "nuvo/geometry/overlap.h"
+#include "nuvo/math/error_bounds.h"
 #include "nuvo/octree/build.h"
 #include "nuvo/octree/walk.h"
 #include "nuvo/render/sah_prices.h"
@@ -124,7 +124,7 @@ std::vector<RayAnswer> answers(const Scene& scene, const Kernel& kernel, Search 
         if (out.size() % kTold == kTold - 1) add(progress, kTold);
         const auto hit = search.closest(kernel.prepare(ray));
         RayAnswer answer;
-        answer.t = std::numeric_limits<double>::infinity();
+        answer.t = kInfinity;
         if (hit) {
             const PrimitiveSource& source = kernel.source(hit->primitive);
             answer = {true, scene.objects[source.object].shape_index, source.triangle,

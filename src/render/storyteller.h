@@ -1,11 +1,11 @@
 #pragma once
 
 #include <algorithm>
-#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "nuvo/math/error_bounds.h"
 #include "nuvo/render/explain.h"
 
 namespace nuvo {
@@ -32,7 +32,7 @@ class Storyteller {
   private:
     std::pair<double, double> way_through(const Bounds3& box) const {
         double in = 0;
-        double out = std::numeric_limits<double>::infinity();
+        double out = kInfinity;
         for (int axis = 0; axis < 3; ++axis) {
             const double d = story_->ray.direction[axis];
             if (d == 0) continue;

@@ -1,16 +1,14 @@
 #include "nuvo/scene/framing.h"
+#include "nuvo/math/error_bounds.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 // All is asked of supports: how far a shape reaches along a direction. A shape lies within a
 // picture iff it lies on the inner side of the four planes through the eye and the picture's sides.
 
 namespace nuvo {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// The largest n.p over the points p of the shape.
 double reach(const Shape& shape, const Vector3& n) {

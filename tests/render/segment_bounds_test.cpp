@@ -14,7 +14,6 @@ namespace nuvo::testing {
 namespace {
 
 constexpr unsigned kSeed = 20261181;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// A ray to a point, given by its direction or by a light beyond the point.
 struct Aimed {

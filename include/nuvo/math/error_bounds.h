@@ -13,6 +13,9 @@ inline constexpr double kUnderflow = 0x1p-1074;
 
 /// The same of a float operation: half the distance from 1 to the next float.
 inline constexpr float kFloatRoundoff = 0x1p-24F;
+
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+inline constexpr float kFloatInfinity = std::numeric_limits<float>::infinity();
 /// More than what the products of a float stage lose below the normal range, where a few of them
 /// are multiplied with numbers up to the size of a picture; added to a stage's bound.
 inline constexpr double kFloatUnderflow = 0x1p-120;

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <cmath>
-#include <limits>
 
 #include "nuvo/math/bounds.h"
+#include "nuvo/math/error_bounds.h"
 #include "nuvo/octree/label.h"
 
 namespace nuvo {
@@ -50,7 +50,7 @@ struct Voxel {
 inline bool too_thin_to_cut(const Bounds3& box, int axis) {
     constexpr double kThinnestUlps = 8;
     const double size = std::fmax(std::fabs(box.min[axis]), std::fabs(box.max[axis]));
-    const double ulp = std::nextafter(size, std::numeric_limits<double>::infinity()) - size;
+    const double ulp = std::nextafter(size, kInfinity) - size;
     return !(box.max[axis] - box.min[axis] > kThinnestUlps * ulp);
 }
 

@@ -43,7 +43,7 @@ struct Entry {
 /// Conservative: none only when the ray surely passes the box.
 inline std::optional<Entry> slab_entry(const Ray& ray, const Bounds3& box) {
     Entry entry{0, -1};
-    double exit = std::numeric_limits<double>::infinity();
+    double exit = kInfinity;
     for (int axis = 0; axis < 3; ++axis) {
         const double o = ray.origin[axis];
         const double d = ray.direction[axis];
@@ -121,8 +121,6 @@ class ExactWalk {
         int axis;
         double t;
     };
-
-    static constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
     double heading_face(const Bounds3& box, int axis) const {
         return direction_[axis] > 0 ? box.max[axis] : box.min[axis];

@@ -6,8 +6,6 @@
 #define NUVO_RENDER_FAST_CAMERA_TRIANGLE_LANES_H_
 #endif
 
-#include <limits>
-
 #include "fast/camera/camera_tables.h"
 #include "fast/scene/triangle_chunk.h"
 #include "fast/simd/wide_vectors.h"
@@ -29,10 +27,10 @@ namespace nuvo::HWY_NAMESPACE {
 class TriangleMaker {
   public:
     explicit TriangleMaker(const CameraRays& camera)
-        : right_(wide(camera.right)),
-          down_(wide(camera.down)),
-          forward_(wide(camera.forward)),
-          anchor_(wide(camera.anchor)),
+        : right_(Wide3::all(camera.right)),
+          down_(Wide3::all(camera.down)),
+          forward_(Wide3::all(camera.forward)),
+          anchor_(Wide3::all(camera.anchor)),
           scale_(camera.scale),
           extent_(camera),
           parallel_(camera.parallel) {}
@@ -44,9 +42,9 @@ class TriangleMaker {
         std::uint32_t back_facing;
     };
     HWY_INLINE Found make(const TriangleBatch& batch, CameraTriangle* out, std::size_t count) {
-        const Wide3 p = load_wide(batch.corner);
-        const Wide3 q = load_wide(batch.corner + 3);
-        const Wide3 r = load_wide(batch.corner + 6);
+        const Wide3 p = Wide3::load(batch.corner);
+        const Wide3 q = Wide3::load(batch.corner + 3);
+        const Wide3 r = Wide3::load(batch.corner + 6);
         const Wide3 at[3] = {(p - anchor_) * scale_, (q - anchor_) * scale_,
                              (r - anchor_) * scale_};
         const Wide3& a = parallel_ ? forward_ : at[0];
@@ -128,8 +126,7 @@ class TriangleMaker {
         store_rounded(select(known_, f.constant * factor, zero), columns_.at[2][i]);
         const Wide whole = error + f.most * factor * (relative + Wide(roundings(kCameraRoundings)));
         const Wide up = whole * Wide(1 + roundings(2)) + Wide(kFloatUnderflow);
-        store_rounded(select(known_, up, Wide(std::numeric_limits<double>::infinity())),
-                      columns_.at[3][i]);
+        store_rounded(select(known_, up, Wide(kInfinity)), columns_.at[3][i]);
     }
 
     Wide3 right_, down_, forward_, anchor_;

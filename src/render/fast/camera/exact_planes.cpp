@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "nuvo/math/error_bounds.h"
 
@@ -85,7 +84,7 @@ bool make_exact_camera_triangle(const CameraRays& camera, const Triangle& triang
     if (std::fabs(factor) * (CameraExtent(camera).direction + 1) < kLargest)
         put(3, along_rays(camera, scaled, factor));
     else
-        put(3, {0, 0, 0, std::numeric_limits<float>::infinity()});
+        put(3, {0, 0, 0, kFloatInfinity});
     return true;
 }
 

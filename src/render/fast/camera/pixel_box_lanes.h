@@ -7,7 +7,6 @@
 #endif
 
 #include <algorithm>
-#include <limits>
 
 #include "fast/camera/camera_tables.h"
 #include "fast/simd/lanes.h"
@@ -63,7 +62,7 @@ class PixelBoxMaker {
         high[2] = max(column[0][2], max(column[1][2], column[2][2]));
         const Singles least = floats_from(reach) * Singles(kLeastDepth);
         for (int k = 0; k < 2; ++k) {
-            low[k] = Singles(std::numeric_limits<float>::infinity());
+            low[k] = Singles(kFloatInfinity);
             high[k] = -low[k];
             for (const auto& p : column) {
                 const Singles at = parallel_ ? p[k] : p[k] / p[2];
@@ -179,8 +178,7 @@ class PixelBoxMaker {
             select(all, Singles(kMost), select(none, zero, min(max(to, zero), Singles(kMost))))
                 .store(end[k]);
         }
-        select(all, Singles(std::numeric_limits<float>::infinity()),
-               mul_add(abs(nearest), Singles(roundings(16)), nearest))
+        select(all, Singles(kFloatInfinity), mul_add(abs(nearest), Singles(roundings(16)), nearest))
             .store(near);
         for (std::size_t i = 0; i < count; ++i) {
             const auto pack = [&](int k) {

@@ -187,7 +187,7 @@ class LightBufferMaker {
     }
     void narrow(int k, std::vector<float>& centers) {
         constexpr double kMuch = 4;
-        constexpr double kLeastShare = 0x1p-30;
+        constexpr double kLeastShare = 0x1p-60;
         if (centers.empty()) return;
         const double low = quantile(centers, 0.02);
         const double high = quantile(centers, 0.98);

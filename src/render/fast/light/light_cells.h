@@ -10,19 +10,19 @@
 #include <bit>
 
 #include "fast/light/light_buffer.h"
-#include "fast/simd/lanes.h"
+#include "fast/simd/vector_lanes.h"
+#include "fast/tile/tile.h"
 
 // Where a light sees points, and the cells of its grids.
 
 HWY_BEFORE_NAMESPACE();
 namespace nuvo::HWY_NAMESPACE {
 
-struct Points {
-    Floats x, y, z;
-
-    /// The largest coordinates.
-    HWY_INLINE Floats size() const { return max(max(abs(x), abs(y)), abs(z)); }
-};
+using Points = VectorLanes<float, kBlockLanes>;
+/// Of a block of a tile.
+HWY_INLINE Points points_of(const Tile& tile, int block) {
+    return Points::load(tile.point, static_cast<std::size_t>(block) * kBlockLanes);
+}
 
 /// The step of u (i = 0) or v (1): monotonic.
 HWY_INLINE Floats step_of(const LightMap& map, int i, const Floats& u) {
@@ -63,12 +63,10 @@ HWY_INLINE std::uint32_t highest_bytes(const Ints& v) {
 struct LightPlaces {
     HWY_INLINE LightPlaces(const LightMap& map, const LightPoint& light, const Points& p,
                            const Floats& error) {
-        const Floats* const at[3] = {&p.x, &p.y, &p.z};
         const Floats weight(static_cast<float>(light.weight));
         Floats w[3];
         for (int axis = 0; axis < 3; ++axis)
-            w[axis] =
-                neg_mul_add(*at[axis], weight, Floats(static_cast<float>(light.toward[axis])));
+            w[axis] = neg_mul_add(p[axis], weight, Floats(static_cast<float>(light.toward[axis])));
         Floats stretch(map.stretch);
         if (map.inside) {
             in_cube(w);
@@ -77,15 +75,15 @@ struct LightPlaces {
         } else {
             const int k = map.axis;
             const int axes[2] = {(k + 1) % 3, (k + 2) % 3};
-            const Floats to_plane = *at[k] / w[k];
-            for (int i = 0; i < 2; ++i) u[i] = neg_mul_add(to_plane, w[axes[i]], *at[axes[i]]);
-            depth = *at[k] * Floats(-map.sign);
+            const Floats to_plane = p[k] / w[k];
+            for (int i = 0; i < 2; ++i) u[i] = neg_mul_add(to_plane, w[axes[i]], p[axes[i]]);
+            depth = p[k] * Floats(-map.sign);
             known = 0xffff;
         }
         for (int i = 0; i < 2; ++i) step[i] = integers_from(step_of(map, i, u[i]));
         moved = stretch * error;
         known &= ((error <= Floats(kMostError * map.point_size)) &
-                  (moved <= Floats(map.most_moved)) & (p.size() <= Floats(map.point_size)))
+                  (moved <= Floats(map.most_moved)) & (max_norm(p) <= Floats(map.point_size)))
                      .bits();
         good = known & (error <= Floats(map.point_error)).bits();
     }

@@ -149,8 +149,8 @@ class PlaneRanges {
              float (&extent)[2]) const {
         for (int i = 0; i < 2; ++i) {
             const int axis = (axis_ + 1 + i) % 3;
-            double low = INFINITY;
-            double high = -INFINITY;
+            double low = kInfinity;
+            double high = -kInfinity;
             for (const double deep : {box.min[axis_], box.max[axis_]})
                 for (const double p : {box.min[axis], box.max[axis]}) {
                     const double w = light.toward[axis] - light.weight * p;

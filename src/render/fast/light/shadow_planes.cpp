@@ -23,17 +23,17 @@ class PlanesMaker {
   public:
     explicit PlanesMaker(const ShadowPlanesJob& job)
         : job_(job),
-          center_(wide(job.scene.frame().center)),
-          toward_(wide(job.light.toward)),
+          center_(Wide3::all(job.scene.frame().center)),
+          toward_(Wide3::all(job.light.toward)),
           scale_(job.scene.frame().scale),
           weight_(job.light.weight),
           size_(job.light.weight * job.scene.reach() + max_norm(job.light.toward)),
           dense_(job.scene.frame().dense) {}
 
     HWY_INLINE void make(const TriangleBatch& batch, Slot first, std::size_t count) {
-        const Wide3 a = load_wide(batch.corner);
-        const Wide3 b = load_wide(batch.corner + 3);
-        const Wide3 c = load_wide(batch.corner + 6);
+        const Wide3 a = Wide3::load(batch.corner);
+        const Wide3 b = Wide3::load(batch.corner + 3);
+        const Wide3 c = Wide3::load(batch.corner + 6);
         const Wide3 e1 = (b - a) * scale_;
         const Wide3 e2 = (c - a) * scale_;
         const Wide3 e3 = (c - b) * scale_;

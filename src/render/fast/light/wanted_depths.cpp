@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <limits>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "fast/light/wanted_depths.cpp"
@@ -24,12 +23,7 @@ HWY_INLINE Floats errors_of(const Tile& tile, int b) {
     return Floats::load(tile.point_error + b * kBlockLanes);
 }
 HWY_INLINE LightPlaces places_of(const WantedDepths& depths, const Tile& tile, int b) {
-    const int first = b * kBlockLanes;
-    return {depths.map(),
-            depths.light(),
-            {Floats::load(tile.point[0] + first), Floats::load(tile.point[1] + first),
-             Floats::load(tile.point[2] + first)},
-            errors_of(tile, b)};
+    return {depths.map(), depths.light(), points_of(tile, b), errors_of(tile, b)};
 }
 
 void deepen(float* cells, std::int32_t place, float depth) {
@@ -42,7 +36,6 @@ void deepen(float* cells, std::int32_t place, float depth) {
 
 void add_points(const WantedDepths& depths, float* cells, const Tile& tile,
                 const TileMask& wanted) {
-    constexpr float kInfinity = std::numeric_limits<float>::infinity();
     for (int b = 0; b < kTileBlocks; ++b) {
         if (wanted[b] == 0) continue;
         const CountedPoints points(depths, places_of(depths, tile, b), errors_of(tile, b),
@@ -54,8 +47,9 @@ void add_points(const WantedDepths& depths, float* cells, const Tile& tile,
             const std::int32_t here = place[std::countr_zero(todo)];
             const std::uint32_t same = todo & (points.cell == Ints(here)).bits();
             todo ^= same;
-            deepen(cells, here,
-                   highest(select(RayMask::from_bits(same), points.depth, Floats(-kInfinity))));
+            deepen(
+                cells, here,
+                highest(select(RayMask::from_bits(same), points.depth, Floats(-kFloatInfinity))));
         }
         if (HWY_UNLIKELY(points.lanes != points.single))
             points.for_each_of_spread(
@@ -75,6 +69,7 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 #include "fast/simd/dispatch.h"
+#include "nuvo/math/error_bounds.h"
 
 namespace nuvo {
 namespace {
@@ -105,7 +100,7 @@ std::optional<WantedDepths> WantedDepths::of(const FastScene& scene, const Light
         size += static_cast<std::size_t>(map.faces() * side * side);
     }
     out.cells_.resize(size);
-    std::fill(out.cells_.begin(), out.cells_.end(), -std::numeric_limits<float>::infinity());
+    std::fill(out.cells_.begin(), out.cells_.end(), -kFloatInfinity);
     return out;
 }
 

@@ -7,12 +7,12 @@
 #endif
 
 #include <bit>
-#include <limits>
 
 #include "fast/primary/box_culling.h"
 #include "fast/primary/frustum.h"
 #include "fast/primary/macro_tile.h"
 #include "fast/simd/lanes.h"
+#include "nuvo/math/error_bounds.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace nuvo::HWY_NAMESPACE {
@@ -25,7 +25,7 @@ class DepthPyramid {
     /// Of a tile that shows nothing yet; its `inside` is known.
     DepthPyramid(const MacroTile& tile, float background) : tile_(tile) {
         for (int b = 0; b < MacroTile::kBlocks; ++b)
-            blocks_[b] = tile.inside[b] != 0 ? background : std::numeric_limits<float>::infinity();
+            blocks_[b] = tile.inside[b] != 0 ? background : kFloatInfinity;
         for (int t = 0; t < MacroTile::kTiles; ++t) update_tile(t);
         all_ = lowest(Floats::load(tiles_));
     }

@@ -7,7 +7,6 @@
 #endif
 
 #include <cmath>
-#include <limits>
 
 #include "fast/camera/camera_tables.h"
 #include "fast/primary/affine_lanes.h"
@@ -93,7 +92,7 @@ class Frustum {
                                   Seen& seen) const {
         if (HWY_UNLIKELY(!usable_)) {
             OctantFloats(BlockRange::kAll).store(seen.range);
-            OctantFloats(std::numeric_limits<float>::infinity()).store(seen.nearest);
+            OctantFloats(kFloatInfinity).store(seen.nearest);
             return 0xff;
         }
         MiddlesAndHalves boxes;
@@ -150,8 +149,7 @@ class Frustum {
             (toward + reach).store(seen.nearest);
             return octants & (toward - reach < OctantFloats(starts_at_)).bits();
         }
-        select(anywhere, OctantFloats(std::numeric_limits<float>::infinity()),
-               by_near * OctantFloats(1 + roundings(4)))
+        select(anywhere, OctantFloats(kFloatInfinity), by_near * OctantFloats(1 + roundings(4)))
             .store(seen.nearest);
         return octants;
     }
@@ -160,8 +158,7 @@ class Frustum {
     /// nearest, `size` the largest |coordinate| on each axis.
     HWY_INLINE RayMask may_cover(const Floats (&at)[3][3], const Floats (&size)[3]) const {
         if (HWY_UNLIKELY(!usable_)) return RayMask::from_bits(0xffff);
-        constexpr float kInfinity = std::numeric_limits<float>::infinity();
-        Floats near(kInfinity);
+        Floats near(kFloatInfinity);
         Floats low[2] = {near, near};
         Floats high[2] = {-near, -near};
         for (const auto& corner : at) {

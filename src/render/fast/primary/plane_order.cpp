@@ -1,6 +1,5 @@
 #include "fast/primary/plane_order.h"
-
-#include <limits>
+#include "nuvo/math/error_bounds.h"
 
 namespace nuvo {
 
@@ -8,7 +7,7 @@ PixelFunction PlaneOrders::order_of(Slot first, Slot second) const {
     const ExactPlane p(scene_.triangle(first), camera_);
     const ExactPlane q(scene_.triangle(second), camera_);
     const int sign = p.constant.sign() * q.constant.sign();
-    if (sign == 0) return {0, 0, 0, std::numeric_limits<float>::infinity()};
+    if (sign == 0) return {0, 0, 0, kFloatInfinity};
     const ExactVector difference{p.normal.x * q.constant - q.normal.x * p.constant,
                                  p.normal.y * q.constant - q.normal.y * p.constant,
                                  p.normal.z * q.constant - q.normal.z * p.constant};

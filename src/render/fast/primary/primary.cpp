@@ -2,7 +2,6 @@
 
 #include <bit>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #undef HWY_TARGET_INCLUDE
@@ -48,7 +47,7 @@ std::uint32_t lanes_inside(int b, int width, int height) {
 // Shows nothing; lanes outside of the picture get a hit nearer than any.
 void clear(MacroTile& tile, const CameraRays& camera) {
     const Resolution picture = camera.resolution;
-    const Floats outside(std::numeric_limits<float>::infinity());
+    const Floats outside(kFloatInfinity);
     const Ints none(kNoSlot);
     for (int b = 0; b < MacroTile::kBlocks; ++b) {
         const int t = b / kTileBlocks;

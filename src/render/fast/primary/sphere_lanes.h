@@ -12,7 +12,7 @@
 
 #include "fast/camera/camera_tables.h"
 #include "fast/primary/primary_lanes.h"
-#include "fast/simd/lanes.h"
+#include "fast/simd/vector_lanes.h"
 #include "nuvo/math/error_bounds.h"
 
 // Spheres against the rays of a tile. Seen from the eye a sphere is a conic (Pharr, Jakob and
@@ -41,20 +41,28 @@ class SphereConics {
             column[4][i] = s.cross_error;
             mapped |= quadric.map != nullptr;
         }
-        const Triple f = load(column);
+        const auto seen_vector = [&](const Vector3& v) HWY_ATTR {
+            return mapped ? as_seen(seen, count, v) : Triple::all(v);
+        };
+        const auto from = Triple::load(column);
+        const Triple center = seen_vector(rays.center);
+        const Triple right = seen_vector(rays.camera.right);
+        const Triple down = seen_vector(rays.camera.down);
         const Doubles r = Doubles::load(column[3]);
         const Floats cross_error = floats_from(Doubles::load(column[4]));
-        const Vector3& right = rays.camera.right;
-        const Vector3& down = rays.camera.down;
-        if (rays.camera.parallel)
-            set_parallel(f, r, cross_error, as_seen(seen, count, rays.center),
-                         as_seen(seen, count, rays.start), as_seen(seen, count, right),
-                         as_seen(seen, count, down));
-        else if (mapped)
-            set(f, r, cross_error, as_seen(seen, count, rays.center), as_seen(seen, count, right),
-                as_seen(seen, count, down));
-        else
-            set(f, r, cross_error, rays.center, right, down);
+        if (rays.camera.parallel) {
+            const Triple f = from + seen_vector(rays.start);
+            const Triple zero = Triple::all({});
+            set({center, zero, zero}, {cross(f, center), cross(right, center), cross(down, center)},
+                r, cross_error);
+            set_toward(-fused_dot(f, center), -fused_dot(right, center), -fused_dot(down, center),
+                       cross_error);
+        } else {
+            set({center, right, down}, {cross(from, center), cross(from, right), cross(from, down)},
+                r, cross_error);
+            set_toward(fused_dot(from, center), fused_dot(from, right), fused_dot(from, down),
+                       cross_error);
+        }
     }
 
     /// The blocks of `blocks` in which the discriminant of sphere i is not surely negative.
@@ -92,14 +100,8 @@ class SphereConics {
     float toward_error(std::size_t i) const { return b_error_[i]; }
 
   private:
-    struct Triple {
-        Doubles at[3];
-    };
+    using Triple = VectorLanes<double, kMost>;
 
-    template <std::size_t kColumns>
-    static HWY_INLINE Triple load(const double (&column)[kColumns][kMost]) {
-        return {{Doubles::load(column[0]), Doubles::load(column[1]), Doubles::load(column[2])}};
-    }
     // A direction as each sphere or ball sees it.
     static HWY_NOINLINE Triple as_seen(const SeenQuadric* seen, std::size_t count,
                                        const Vector3& d) {
@@ -109,75 +111,44 @@ class SphereConics {
             const Vector3 v = map == nullptr ? d : map->to_ball * d;
             for (int axis = 0; axis < 3; ++axis) column[axis][i] = v[axis];
         }
-        return load(column);
+        return Triple::load(column);
     }
 
-    // The functions for directions `center` + x `right` + y `down`: the same for all spheres, or
-    // of each its own.
-    template <typename Direction>
-    HWY_INLINE void set(const Triple& f, const Doubles& r, const Floats& cross_error,
-                        const Direction& center, const Direction& right, const Direction& down) {
+    // at + x right + y down.
+    struct OfPixel {
+        Triple at, right, down;
+    };
+    // The discriminant of directions d and m = f x d.
+    HWY_INLINE void set(const OfPixel& d, const OfPixel& m, const Doubles& r,
+                        const Floats& cross_error) {
         const Doubles r_square = r * r;
-        const Triple at = cross(f, center);
-        const Triple x = cross(f, right);
-        const Triple y = cross(f, down);
         const auto gap =
-            [&](const Direction& a, const Direction& b, const Triple& fa, const Triple& fb)
-                HWY_ATTR { return r_square * dot(a, b) - dot(fa, fb); };
-        const Doubles two(2.0);
+            [&](const Triple& a, const Triple& b, const Triple& ma, const Triple& mb)
+                HWY_ATTR { return floats_from(r_square * fused_dot(a, b) - fused_dot(ma, mb)); };
+        const Floats two(2.0F);
+        const Floats constant = gap(d.at, d.at, m.at, m.at);
+        const Floats x = two * gap(d.at, d.right, m.at, m.right);
+        const Floats y = two * gap(d.at, d.down, m.at, m.down);
+        const Floats xx = gap(d.right, d.right, m.right, m.right);
+        const Floats xy = two * gap(d.right, d.down, m.right, m.down);
+        const Floats yy = gap(d.down, d.down, m.down, m.down);
+        const Floats half(kHalfTile);
+        const Floats size = mul_add(mul_add(abs(xx) + abs(xy) + abs(yy), half, abs(x) + abs(y)),
+                                    half, abs(constant));
         const Doubles longest =
-            length(center) + Doubles(kHalfTile) * (length(right) + length(down));
-        set_discriminant(gap(center, center, at, at), two * gap(center, right, at, x),
-                         two * gap(center, down, at, y), gap(right, right, x, x),
-                         two * gap(right, down, x, y), gap(down, down, y, y), longest * longest,
-                         r_square, cross_error);
-        set_toward(dot(f, center), dot(f, right), dot(f, down), cross_error);
-    }
-
-    // For rays from `from` + `start` + x `right` + y `down`, each of which is seen as its own
-    // sphere sees it, along the direction d.
-    HWY_NOINLINE void set_parallel(const Triple& from, const Doubles& r, const Floats& cross_error,
-                                   const Triple& d, const Triple& start, const Triple& right,
-                                   const Triple& down) {
-        const Triple f{
-            {from.at[0] + start.at[0], from.at[1] + start.at[1], from.at[2] + start.at[2]}};
-        const Triple at = cross(f, d);
-        const Triple x = cross(right, d);
-        const Triple y = cross(down, d);
-        const Doubles square = dot(d, d);
-        const Doubles two(-2.0);
-        set_discriminant(mul_add(r * r, square, -dot(at, at)), two * dot(at, x), two * dot(at, y),
-                         -dot(x, x), two * dot(x, y), -dot(y, y), square, r * r, cross_error);
-        set_toward(-dot(f, d), -dot(right, d), -dot(down, d), cross_error);
-    }
-
-    // The discriminant's coefficients; `square` bounds |d|^2.
-    HWY_INLINE void set_discriminant(const Doubles& constant, const Doubles& by_x,
-                                     const Doubles& by_y, const Doubles& by_xx,
-                                     const Doubles& by_xy, const Doubles& by_yy,
-                                     const Doubles& square, const Doubles& r_square,
-                                     const Floats& cross_error) {
-        const Floats d = floats_from(constant);
-        const Floats d_x = floats_from(by_x);
-        const Floats d_y = floats_from(by_y);
-        const Floats d_xx = floats_from(by_xx);
-        const Floats d_xy = floats_from(by_xy);
-        const Floats d_yy = floats_from(by_yy);
-        const Floats m(kHalfTile);
-        const Floats size =
-            mul_add(mul_add(abs(d_xx) + abs(d_xy) + abs(d_yy), m, abs(d_x) + abs(d_y)), m, abs(d));
+            length(d.at) + Doubles(kHalfTile) * (length(d.right) + length(d.down));
         const Floats error =
-            error_of(floats_from(square), size, floats_from(r_square), cross_error);
+            error_of(floats_from(longest * longest), size, floats_from(r_square), cross_error);
         // Beyond floats no sum of the terms, at most 2^21 errors, means anything; nor of NaN.
         const RayMask known = error < Floats(kLargest);
         const Floats zero(0.0F);
-        select(known, d, zero).store(constant_);
-        select(known, d_x, zero).store(x_);
-        select(known, d_y, zero).store(y_);
-        select(known, d_xx, zero).store(xx_);
-        select(known, d_xy, zero).store(xy_);
-        select(known, d_yy, zero).store(yy_);
-        const Floats bound = select(known, error, Floats(std::numeric_limits<float>::infinity()));
+        select(known, constant, zero).store(constant_);
+        select(known, x, zero).store(x_);
+        select(known, y, zero).store(y_);
+        select(known, xx, zero).store(xx_);
+        select(known, xy, zero).store(xy_);
+        select(known, yy, zero).store(yy_);
+        const Floats bound = select(known, error, Floats(kFloatInfinity));
         bound.store(error_);
         (sqrt(bound + bound) * Floats(1 + roundings(4))).store(root_error_);
     }
@@ -193,25 +164,7 @@ class SphereConics {
         mul_add(size, Floats(roundings(8)), cross_error).store(b_error_);
     }
 
-    static HWY_INLINE Triple cross(const Triple& f, const Vector3& d) {
-        return {{f.at[1] * Doubles(d.z) - f.at[2] * Doubles(d.y),
-                 f.at[2] * Doubles(d.x) - f.at[0] * Doubles(d.z),
-                 f.at[0] * Doubles(d.y) - f.at[1] * Doubles(d.x)}};
-    }
-    static HWY_INLINE Triple cross(const Triple& f, const Triple& d) {
-        return {{f.at[1] * d.at[2] - f.at[2] * d.at[1], f.at[2] * d.at[0] - f.at[0] * d.at[2],
-                 f.at[0] * d.at[1] - f.at[1] * d.at[0]}};
-    }
-    static HWY_INLINE Doubles dot(const Triple& a, const Triple& b) {
-        return mul_add(a.at[0], b.at[0], mul_add(a.at[1], b.at[1], a.at[2] * b.at[2]));
-    }
-    static HWY_INLINE Doubles dot(const Triple& f, const Vector3& d) {
-        return mul_add(f.at[0], Doubles(d.x),
-                       mul_add(f.at[1], Doubles(d.y), f.at[2] * Doubles(d.z)));
-    }
-    static HWY_INLINE Doubles dot(const Vector3& a, const Vector3& b) { return nuvo::dot(a, b); }
-    static HWY_INLINE Doubles length(const Triple& v) { return sqrt(dot(v, v)); }
-    static HWY_INLINE Doubles length(const Vector3& v) { return nuvo::length(v); }
+    static HWY_INLINE Doubles length(const Triple& v) { return sqrt(fused_dot(v, v)); }
 
     // `size` bounds the terms of the discriminant: 8 roundings of them. |f x d|^2 is less than
     // size + |d|^2 r^2 =: s; an error c of f x d on each axis adds at most 3.5 c |f x d| + 3 c^2

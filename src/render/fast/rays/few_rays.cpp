@@ -1,10 +1,9 @@
 #include "fast/rays/few_rays.h"
 
-#include <limits>
-
 #include "fast/rays/nearest_hit.h"
 #include "fast/shadow/segment_walk.h"
 #include "fast/tile/local_ray.h"
+#include "nuvo/math/error_bounds.h"
 
 namespace nuvo {
 namespace {
@@ -38,8 +37,7 @@ RayAnswer FewRays::closest_hit(const Ray& ray) {
         for (Slot slot = 0; slot < scene_.slot_end(); ++slot) test(slot);
     } else {
         SegmentWalk walk({local.origin[0], local.origin[1], local.origin[2]},
-                         {local.step[0], local.step[1], local.step[2]},
-                         std::numeric_limits<double>::infinity(), local.error);
+                         {local.step[0], local.step[1], local.step[2]}, kInfinity, local.error);
         walk.any(scene_.octree(), [&](const Slot* slots, std::uint32_t count) {
             for (std::uint32_t i = 0; i < count; ++i) test(slots[i]);
             // Rounded up: a product, a difference, and the origin's own error.
@@ -51,7 +49,7 @@ RayAnswer FewRays::closest_hit(const Ray& ray) {
             return false;
         });
     }
-    if (!nearest.best()) return {.t = std::numeric_limits<double>::infinity()};
+    if (!nearest.best()) return {.t = kInfinity};
     const PrimitiveSource& source = scene_.source(nearest.slot());
     return {true, scene_.scene().objects[source.object].shape_index, source.triangle,
             nearest.best()->root.t};

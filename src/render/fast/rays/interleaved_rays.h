@@ -8,7 +8,6 @@
 
 #include <bit>
 #include <cstring>
-#include <limits>
 #include <span>
 #include <utility>
 
@@ -17,6 +16,7 @@
 #include "fast/rays/single_ray.h"
 #include "fast/rays/single_ray_leaf.h"
 #include "fast/simd/lanes.h"
+#include "nuvo/math/error_bounds.h"
 
 // A node's boxes are met from near to far, as in Embree's single-ray kernels (Wald et al. 2014,
 // "Embree: a kernel framework for efficient CPU ray tracing"), but 16 at a step and in the octree's
@@ -55,8 +55,6 @@ class InterleavedRays {
     }
 
   private:
-    static constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
     // The rays in one state. Read from the front while it is filled anew.
     struct Queue {
         std::size_t count = 0;
@@ -262,7 +260,7 @@ class InterleavedRays {
 
     HWY_NOINLINE void add_open(RayState& state, const Slot* slots, std::uint32_t count) const {
         for (std::uint32_t i = 0; i < count; ++i)
-            add(state, {-kInfinity, kInfinity, slots[i] & ~kFrontOnly, false});
+            add(state, {-kFloatInfinity, kFloatInfinity, slots[i] & ~kFrontOnly, false});
     }
 
     void add(RayState& state, const RayCandidate& candidate) const {

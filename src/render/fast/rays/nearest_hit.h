@@ -1,11 +1,11 @@
 #pragma once
 
-#include <limits>
 #include <optional>
 
 #include "exact_kernel.h"
 #include "fast/scene/fast_scene.h"
 #include "leaf_boxes.h"
+#include "nuvo/math/error_bounds.h"
 
 namespace nuvo {
 
@@ -34,9 +34,7 @@ class NearestHit {
     Slot slot() const { return slot_; }
 
   private:
-    double end() const {
-        return best_ ? best_->root.high : std::numeric_limits<double>::infinity();
-    }
+    double end() const { return best_ ? best_->root.high : kInfinity; }
 
     const FastScene& scene_;
     const Kernel& kernel_;

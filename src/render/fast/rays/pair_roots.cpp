@@ -69,11 +69,11 @@ void find_triangle_roots(PairRoots& roots, std::size_t count) {
     constexpr double kShare = 0.4375 * root_tolerance();
     roots.found = roots.hit = roots.missed = 0;
     for (std::size_t i = 0; i < count; i += kBatch) {
-        const Wide3 a = load_wide(roots.a, i);
-        const Wide3 b = load_wide(roots.b, i);
-        const Wide3 c = load_wide(roots.c, i);
-        const Wide3 o = load_wide(roots.origin, i);
-        const Wide3 d = load_wide(roots.direction, i);
+        const Wide3 a = Wide3::load(roots.a, i);
+        const Wide3 b = Wide3::load(roots.b, i);
+        const Wide3 c = Wide3::load(roots.c, i);
+        const Wide3 o = Wide3::load(roots.origin, i);
+        const Wide3 d = Wide3::load(roots.direction, i);
         const Cross normal(b - a, c - a);
         const Wide3 toward = a - o;
         const Wide height = normal.dot(toward);
@@ -102,8 +102,8 @@ void find_sphere_roots(PairRoots& roots, std::size_t count) {
     static_assert(gamma(6) <= kShare);  // of a
     roots.found = 0;
     for (std::size_t i = 0; i < count; i += kBatch) {
-        const Wide3 f = load_wide(roots.origin, i) - load_wide(roots.a, i);
-        const Wide3 d = load_wide(roots.direction, i);
+        const Wide3 f = Wide3::load(roots.origin, i) - Wide3::load(roots.a, i);
+        const Wide3 d = Wide3::load(roots.direction, i);
         const Wide r = Wide::load(roots.b[0] + i);
         const Wide a = dot(d, d);
         const Wide length = sqrt(a);

@@ -4,10 +4,10 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 
 #include "fast/rays/wide_octree.h"
 #include "fast/scene/fast_scene.h"
+#include "nuvo/math/error_bounds.h"
 
 // A ray under way. One ray alone waits for its own memory, comparisons and mispredicted branches
 // most of the time; so a thread keeps many under way (rays are interleaved) and gives each a step
@@ -104,7 +104,7 @@ struct RayState {
         rays = &ray_lanes;
         lane = ray_index % RayLanes::kRays;
         signs = static_cast<std::uint32_t>(ray_lanes.signs[lane]);
-        best = std::numeric_limits<float>::infinity();
+        best = kFloatInfinity;
         candidate_count = 0;
         levels[0].entry[0] = 0;
         levels[0].child[0] = kFinished;

@@ -36,6 +36,7 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 #include "fast/simd/dispatch.h"
+#include "nuvo/math/error_bounds.h"
 
 namespace nuvo {
 namespace {
@@ -109,7 +110,7 @@ std::optional<SingleRays::Nearest> SingleRays::nearest_of(const Ray& ray, std::s
     for (std::size_t i = 0; i < triangles; ++i)
         set_triangle(roots, i, ray, scene_.source(slots[i]));
     roots_.find_triangles(roots, triangles);
-    double end = std::numeric_limits<double>::infinity();
+    double end = kInfinity;
     for (std::size_t i = 0; i < triangles; ++i)
         if ((roots.hit >> i & 1) != 0) end = std::min(end, roots.t[i] * (1 + root_tolerance()));
     std::size_t left = 0;
@@ -214,7 +215,7 @@ void SingleRays::answer(std::span<const Ray> rays, const Slot* found, RayAnswer*
     };
     for (std::size_t i = 0; i < rays.size(); ++i) {
         if (found[i] == kNoSlot) {
-            answers[i].t = std::numeric_limits<double>::infinity();
+            answers[i].t = kInfinity;
             continue;
         }
         const PrimitiveSource& source = scene_.source(found[i]);

@@ -10,7 +10,8 @@
 
 #include "fast/rays/ray_state.h"
 #include "fast/rays/wide_octree.h"
-#include "fast/simd/lanes.h"
+#include "fast/simd/vector_lanes.h"
+#include "nuvo/math/error_bounds.h"
 
 // One ray against 8 or 16 primitives of a leaf. The ray is seen from the point where it enters the
 // leaf's box, in units of the leaf's grid on each axis, so that all numbers are small whatever the
@@ -38,26 +39,7 @@ struct LeafHits {
 };
 
 template <std::size_t N>
-struct LeafVector {
-    using LeafFloats = Lanes<float, N>;
-    LeafFloats x, y, z;
-    friend HWY_INLINE LeafVector operator-(const LeafVector& a, const LeafVector& b) {
-        return {a.x - b.x, a.y - b.y, a.z - b.z};
-    }
-    friend HWY_INLINE LeafVector cross(const LeafVector& a, const LeafVector& b) {
-        return {neg_mul_add(a.z, b.y, a.y * b.z), neg_mul_add(a.x, b.z, a.z * b.x),
-                neg_mul_add(a.y, b.x, a.x * b.y)};
-    }
-    friend HWY_INLINE LeafFloats dot(const LeafVector& a, const LeafVector& b) {
-        return mul_add(a.z, b.z, mul_add(a.y, b.y, a.x * b.x));
-    }
-    friend HWY_INLINE LeafFloats max_norm(const LeafVector& a) {
-        return max(abs(a.x), max(abs(a.y), abs(a.z)));
-    }
-    friend HWY_INLINE LeafFloats norm1(const LeafVector& a) {
-        return abs(a.x) + abs(a.y) + abs(a.z);
-    }
-};
+using LeafVector = VectorLanes<float, N>;
 
 /// The first `count` of N lanes, or all.
 template <std::size_t N>
@@ -143,15 +125,14 @@ HWY_INLINE LeafHits<N> test_triangles(const RayAtLeaf& ray, const std::uint16_t*
                                       std::size_t stride, const LaneMask<float, N>& front) {
     using LeafFloats = Lanes<float, N>;
     using LeafMask = LaneMask<float, N>;
-    const LeafVector a = load_corner<N>(corners, stride, 0, ray);
-    const LeafVector b = load_corner<N>(corners, stride, 1, ray);
-    const LeafVector c = load_corner<N>(corners, stride, 2, ray);
-    const LeafVector<N> d = {LeafFloats(ray.step[0]), LeafFloats(ray.step[1]),
-                             LeafFloats(ray.step[2])};
-    const LeafVector dc = cross(d, c);
-    const LeafFloats u = dot(b, dc);
-    const LeafFloats v = -dot(a, dc);
-    const LeafFloats w = dot(a, cross(d, b));
+    const LeafVector<N> a = load_corner<N>(corners, stride, 0, ray);
+    const LeafVector<N> b = load_corner<N>(corners, stride, 1, ray);
+    const LeafVector<N> c = load_corner<N>(corners, stride, 2, ray);
+    const auto d = LeafVector<N>::all({ray.step[0], ray.step[1], ray.step[2]});
+    const LeafVector<N> dc = fused_cross(d, c);
+    const LeafFloats u = fused_dot(b, dc);
+    const LeafFloats v = -fused_dot(a, dc);
+    const LeafFloats w = fused_dot(a, fused_cross(d, b));
     constexpr float kEdge =
         4 * kCorner * kReach + 2 * kCorner * kCorner + roundings(18) * kReach * kReach;
     const LeafFloats edge_error(kEdge * (1 + roundings(8)) * ray.step_sum);
@@ -159,11 +140,11 @@ HWY_INLINE LeafHits<N> test_triangles(const RayAtLeaf& ray, const std::uint16_t*
     const LeafFloats most = max(u, max(v, w));
     const LeafMask inside = (least > edge_error) | without(most < -edge_error, front);
     const LeafMask outside = (least < -edge_error) & ((most > edge_error) | front);
-    const LeafVector e1 = b - a;
-    const LeafVector e2 = c - a;
-    const LeafVector n = cross(e1, e2);
-    const LeafFloats height = dot(n, a);
-    const LeafFloats slope = dot(n, d);
+    const LeafVector<N> e1 = b - a;
+    const LeafVector<N> e2 = c - a;
+    const LeafVector<N> n = fused_cross(e1, e2);
+    const LeafFloats height = fused_dot(n, a);
+    const LeafFloats slope = fused_dot(n, d);
     const LeafFloats k =
         (max(max_norm(e1), max_norm(e2)) + LeafFloats(kCorner)) * LeafFloats(9 * kCorner);
     const LeafFloats height_error = mul_add(k, norm1(a), norm1(n) * LeafFloats(kCorner));
@@ -179,9 +160,8 @@ HWY_INLINE LeafHits<N> test_triangles(const RayAtLeaf& ray, const std::uint16_t*
                              abs(along) * LeafFloats(roundings(4));
     LeafHits<N> hits;
     ray.set_interval(hits, along, error);
-    constexpr float kInfinity = std::numeric_limits<float>::infinity();
-    hits.low = select(crossing, hits.low, LeafFloats(-kInfinity));
-    hits.high = select(crossing, hits.high, LeafFloats(kInfinity));
+    hits.low = select(crossing, hits.low, LeafFloats(-kFloatInfinity));
+    hits.high = select(crossing, hits.high, LeafFloats(kFloatInfinity));
     hits.sure = inside & crossing;
     hits.open = without(~outside, hits.sure);
     return hits;
@@ -205,13 +185,11 @@ HWY_INLINE LeafHits<N> test_spheres(const RayAtLeaf& ray, const float* values, s
         LeafFloats(ray.from[1]) - LeafFloats::load(values + stride, present),
         LeafFloats(ray.from[2]) - LeafFloats::load(values + 2 * stride, present)};
     const LeafFloats r = LeafFloats::load(values + 3 * stride, present);
-    const LeafVector<N> d = {LeafFloats(ray.direction[0]), LeafFloats(ray.direction[1]),
-                             LeafFloats(ray.direction[2])};
+    const auto d = LeafVector<N>::all({ray.direction[0], ray.direction[1], ray.direction[2]});
     const LeafFloats inverse(1 / ray.square);
-    const LeafFloats middle = -dot(f, d) * inverse;
-    const LeafVector<N> l = {mul_add(middle, d.x, f.x), mul_add(middle, d.y, f.y),
-                             mul_add(middle, d.z, f.z)};
-    const LeafFloats across = dot(l, l);
+    const LeafFloats middle = -fused_dot(f, d) * inverse;
+    const LeafVector<N> l = mul_add(d, middle, f);
+    const LeafFloats across = fused_dot(l, l);
     const LeafFloats depth = mul_add(r, r, -across);
     const LeafFloats error =
         mul_add(norm1(f), LeafFloats(roundings(32)), LeafFloats(roundings(8) + ray.point_error));

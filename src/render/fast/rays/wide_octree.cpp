@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <limits>
 #include <numeric>
 
 #include "fast/rays/wide_leaf.h"
+#include "nuvo/math/error_bounds.h"
 
 // From the compact octree, in two passes. The first goes up: tight boxes from what the leaves hold,
 // and by the surface area heuristic over these boxes what a voxel costs as a leaf, as a node, and
@@ -116,8 +116,7 @@ class WideBuilder {
         const float as_node = half_area(voxel.box) * kNodeCost +
                               byte_cost_ * static_cast<float>(sizeof(WideNode)) +
                               voxel.forest[kWideLanes - 1];
-        const float as_leaf =
-            voxel.small ? leaf_cost(voxel) : std::numeric_limits<float>::infinity();
+        const float as_leaf = voxel.small ? leaf_cost(voxel) : kFloatInfinity;
         voxel.leaf = as_leaf <= as_node;
         voxel.forest[0] = std::min(as_leaf, as_node);
         for (std::size_t k = 1; k < kWideLanes; ++k)
@@ -149,8 +148,7 @@ class WideBuilder {
         for (Slot slot = 0; slot < scene_.sphere_end() && large.size() <= kFew; ++slot)
             if (max_norm(whole_box(scene_, slot).widths()) >= wide) large.push_back(slot);
         if (large.size() > kFew) return;
-        for (const Slot slot : large)
-            homes_[slot] = {~std::uint32_t{0}, -std::numeric_limits<float>::infinity(), true};
+        for (const Slot slot : large) homes_[slot] = {~std::uint32_t{0}, -kFloatInfinity, true};
         for (const LargeGroup& group : groups_of(large)) {
             std::uint64_t way = lanes.size();  // they differ in that
             for (int axis = 0; axis < 3; ++axis)
@@ -196,7 +194,7 @@ class WideBuilder {
     // small enough against it to be listed there only, as a whole.
     struct Home {
         std::uint32_t leaf = 0;
-        float distance = std::numeric_limits<float>::infinity();
+        float distance = kFloatInfinity;
         bool only = false;
     };
     void find_homes(std::uint32_t place, const Bounds3T<float>& bounds) {
@@ -256,7 +254,7 @@ class WideBuilder {
                 voxels_[node.first_child() + static_cast<std::uint32_t>(i)].forest;
             const Forest& before = sums.sum[i - 1];
             Forest& sum = sums.sum[i];
-            sum.fill(std::numeric_limits<float>::infinity());
+            sum.fill(kFloatInfinity);
             for (std::size_t j = i - 1; j + 1 < kWideLanes; ++j)
                 for (std::size_t k = 0; j + k + 1 < kWideLanes; ++k)
                     sum[j + k + 1] = std::min(sum[j + k + 1], before[j] + forest[k]);
@@ -322,14 +320,13 @@ class WideBuilder {
     }
 
     void put_boxes(const std::vector<Inner>& voxels, WideNode& node) const {
-        constexpr float kInfinity = std::numeric_limits<float>::infinity();
         for (std::size_t lane = 0; lane < kWideLanes; ++lane) {
             const Bounds3T<float> box =
                 lane < voxels.size() ? voxels_[voxels[lane].place].box : Bounds3T<float>{};
             for (int axis = 0; axis < 3; ++axis) {
-                node.face[axis * kWideLanes + lane] = box.empty() ? kInfinity : box.min[axis];
+                node.face[axis * kWideLanes + lane] = box.empty() ? kFloatInfinity : box.min[axis];
                 node.face[(axis + 3) * kWideLanes + lane] =
-                    box.empty() ? -kInfinity : box.max[axis];
+                    box.empty() ? -kFloatInfinity : box.max[axis];
             }
         }
     }

@@ -17,8 +17,8 @@ constexpr std::size_t kCrowd = kSamples / 16;
 // and is by this factor narrower than the scene: less is not worth the bit that a scene off 0
 // loses.
 constexpr double kFarNarrower = 64;
-// Below this share of the scene doubles tell little more than floats.
-constexpr double kLeastDense = 0x1p-24;
+// Below this share of the scene surface points are hardly known. [numerics: stages]
+constexpr double kLeastDense = 0x1p-40;
 
 // Centres of items, evenly over the document.
 std::vector<Point3> sample(const Primitives& primitives) {

@@ -25,13 +25,13 @@ HWY_INLINE Column margin(const Column& v) {
 }
 
 void make_local(const LocalTrianglesJob& job, const TriangleChunk& chunk) {
-    const Wide3 center = wide(job.frame.center);
+    const Wide3 center = Wide3::all(job.frame.center);
     const Wide scale(job.frame.scale);
     alignas(64) float corners[9][kBatch];
     alignas(64) float sides[6][kBatch];
     chunk.for_each_batch([&](const TriangleBatch& batch, Slot first, std::size_t count) HWY_ATTR {
         for (std::size_t i = 0; i < 9; i += 3)
-            store_rounded((load_wide(batch.corner + i) - center) * scale, corners + i);
+            store_rounded((Wide3::load(batch.corner + i) - center) * scale, corners + i);
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const Column a = Column::load(corners[axis]);
             const Column b = Column::load(corners[axis + 3]);

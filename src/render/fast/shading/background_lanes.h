@@ -6,12 +6,11 @@
 #define NUVO_RENDER_FAST_BACKGROUND_LANES_H_
 #endif
 
-#include <limits>
-
 #include "fast/shading/block_directions.h"
 #include "fast/shading/shading.h"
 #include "fast/simd/lanes.h"
 #include "fast/simd/vector_math.h"
+#include "nuvo/math/error_bounds.h"
 
 // The background along 16 rays, as background.cpp has it: one color, the blend of eq. 36, or the
 // bands of the standard's gradients.
@@ -44,7 +43,7 @@ HWY_INLINE PixelColors banded(const std::vector<BackgroundBand>& bands, const Fl
     const Floats most = angle + angle_error;
     PixelColors out;
     for (Floats& c : out.channel) c = Floats(0.0F);
-    out.error = Floats(std::numeric_limits<float>::infinity());
+    out.error = Floats(kFloatInfinity);
     RayMask open = RayMask::from_bits(0xffff);  // beyond all bands so far
     for (const BackgroundBand& band : bands) {
         const RayMask here = open & (most <= Floats(band.upper));
@@ -80,7 +79,7 @@ HWY_INLINE PixelColors gradient(const ShadingBackground& background, const Float
     out.take(may_be_ground, banded(background.ground, from_nadir, margin_of_ground));
     const RayMask known =  // not at the horizon, nor where the ground ends
         without(abs(y) > error, may_be_ground & (from_nadir + margin_of_ground > end));
-    out.error = select(known, out.error, Floats(std::numeric_limits<float>::infinity()));
+    out.error = select(known, out.error, Floats(kFloatInfinity));
     return out;
 }
 

@@ -6,11 +6,10 @@
 #define NUVO_RENDER_FAST_LIGHT_LANES_H_
 #endif
 
-#include <limits>
-
 #include "fast/shading/shading.h"
 #include "fast/simd/lanes.h"
 #include "fast/simd/vector_math.h"
+#include "nuvo/math/error_bounds.h"
 
 // Geometry of one light at 16 points: direction, attenuation, spot and specular lobe [eq. 38-44].
 // In the comments u is 2^-24, and numbers of u count roundings.
@@ -21,8 +20,7 @@ namespace nuvo::HWY_NAMESPACE {
 /// The relative error that an error of `x` of a vector of length 1 gives its direction and, the
 /// inverse of, its length; infinite where that is not small.
 HWY_INLINE Floats small_error(const Floats& x) {
-    return select(x < Floats(kSmall), x * Floats(kSecondOrder),
-                  Floats(std::numeric_limits<float>::infinity()));
+    return select(x < Floats(kSmall), x * Floats(kSecondOrder), Floats(kFloatInfinity));
 }
 
 /// To a directional light: the same from everywhere.
@@ -91,7 +89,7 @@ HWY_INLINE void weaken_by_cone(const ShadingLight& light, const ToLight& toward,
     const Floats one(1.0F);
     Floats high;
     Floats low;
-    if (light.inverse_width < std::numeric_limits<float>::infinity()) {
+    if (light.inverse_width < kFloatInfinity) {
         const auto part = [&](const Floats& a) HWY_ATTR {
             const Floats inside = (Floats(light.cut_off) - a) * Floats(light.inverse_width);
             return min(max(inside, Floats(0.0F)), one);
@@ -108,13 +106,12 @@ HWY_INLINE void weaken_by_cone(const ShadingLight& light, const ToLight& toward,
     factor.value = factor.value * middle;
     // NaN ends where nothing is known.
     const RayMask known = toward.relative < one;
-    factor.error = select(known, factor.error, Floats(std::numeric_limits<float>::infinity()));
+    factor.error = select(known, factor.error, Floats(kFloatInfinity));
     factor.perhaps = factor.perhaps & (~known | (high > Floats(0.0F)));
 }
 
 /// Radius, attenuation and cone.
 HWY_INLINE Factor strength(const ShadingLight& light, const ToLight& toward) {
-    constexpr float kInfinity = std::numeric_limits<float>::infinity();
     Factor factor{Floats(1.0F), Floats(0.0F), RayMask::from_bits(0xffff)};
     const Floats distance = toward.square * toward.inverse;
     const Floats relative = toward.relative + Floats(roundings(2));
@@ -122,7 +119,7 @@ HWY_INLINE Factor strength(const ShadingLight& light, const ToLight& toward) {
         const Floats slack = distance * (relative + Floats(roundings(2)));
         factor.perhaps = ~(distance - slack > Floats(light.radius));
         factor.error =
-            select(distance + slack < Floats(light.radius), Floats(0.0F), Floats(kInfinity));
+            select(distance + slack < Floats(light.radius), Floats(0.0F), Floats(kFloatInfinity));
     }
     if (light.attenuated) {  // [eq. 38, 39]
         const Floats loss =
@@ -181,8 +178,7 @@ HWY_INLINE Lobe specular_lobe(const Floats (&normal)[3], const Floats (&toward)[
     const Floats steep = exponent * z_error;
     const RayMask regular = (steep < cosine * Floats(kSmall)) & (z_error < cosine * Floats(kSmall));
     // Where the cosine is not far above its error: max(0, x)^e on x <= 1 has no slope above e >= 1.
-    const Floats lipschitz =
-        select(exponent >= one, steep, Floats(std::numeric_limits<float>::infinity()));
+    const Floats lipschitz = select(exponent >= one, steep, Floats(kFloatInfinity));
     Lobe lobe;
     lobe.value = power;
     lobe.error = select(regular, power * (steep / cosine) * Floats(kSecondOrder), lipschitz) +

@@ -89,14 +89,14 @@ class TriangleFiller {
     }
 
     HWY_INLINE void take(const TriangleBatch& batch, Slot first, std::size_t count) {
-        const Wide3 a = load_wide(batch.corner);
+        const Wide3 a = Wide3::load(batch.corner);
         const Wide scale(scale_);
         WideTriangles t;
         const CameraRays& camera = tables_.camera;
-        t.a = (a - wide(camera.anchor)) * scale;
-        t.from = camera.parallel ? wide(camera.forward) : t.a;
-        t.e1 = (load_wide(batch.corner + 3) - a) * scale;
-        t.e2 = (load_wide(batch.corner + 6) - a) * scale;
+        t.a = (a - Wide3::all(camera.anchor)) * scale;
+        t.from = camera.parallel ? Wide3::all(camera.forward) : t.a;
+        t.e1 = (Wide3::load(batch.corner + 3) - a) * scale;
+        t.e2 = (Wide3::load(batch.corner + 6) - a) * scale;
         Wide3 n = cross(t.e1, t.e2);
         const Wide magnitudes = abs(t.e1.y * t.e2.z) + abs(t.e1.z * t.e2.y) + abs(t.e1.z * t.e2.x) +
                                 abs(t.e1.x * t.e2.z) + abs(t.e1.x * t.e2.y) + abs(t.e1.y * t.e2.x);
@@ -132,8 +132,8 @@ class TriangleFiller {
             const Light& exact = tables_.scene.scene().lights[i];
             const Wide value =
                 light.directional
-                    ? dot(n, wide(-exact.direction))
-                    : within_plane_error(dot(n, (wide(exact.location) - a) * Wide(scale_)));
+                    ? dot(n, Wide3::all(-exact.direction))
+                    : within_plane_error(dot(n, (Wide3::all(exact.location) - a) * Wide(scale_)));
             spread(value * Wide(light.exact_gain), cosines.data() + first, 1, count);
         }
         if (tables_.triangles.normals.empty()) return;
@@ -160,8 +160,8 @@ class TriangleFiller {
     HWY_INLINE void store_smooth(const WideTriangles& t, const Wide& sign, std::size_t count) {
         float functions[SmoothTriangle::kNumbers][kBatch];
         smooth_functions(tables_.camera, static_cast<double>(tables_.rays.longest), t,
-                         load_wide(surfaces_.normal), load_wide(surfaces_.normal + 3),
-                         load_wide(surfaces_.normal + 6), sign, functions);
+                         Wide3::load(surfaces_.normal), Wide3::load(surfaces_.normal + 3),
+                         Wide3::load(surfaces_.normal + 6), sign, functions);
         for (std::size_t i = 0; i < count; ++i) {
             if (surfaces_.smooth[i] == nullptr) continue;
             float numbers[SmoothTriangle::kNumbers];

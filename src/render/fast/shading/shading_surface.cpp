@@ -1,7 +1,5 @@
 #include "fast/shading/shading.h"
 
-#include <limits>
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "fast/shading/shading_surface.cpp"
 #include <hwy/foreach_target.h>
@@ -34,8 +32,6 @@ class SurfaceFiller {
     }
 
   private:
-    static constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
     HWY_INLINE void fill(int b) {
         const int first = b * kBlockLanes;
         const std::uint32_t hit = tile_.hit[b];
@@ -74,7 +70,7 @@ class SurfaceFiller {
     HWY_INLINE void clear_sums(int first) {
         const Floats zero(0.0F);
         for (int c = 0; c < tables_.channels; ++c) zero.store(scratch_.diffuse[c] + first);
-        Floats(tables_.sound ? 0.0F : kInfinity).store(scratch_.diffuse_error + first);
+        Floats(tables_.sound ? 0.0F : kFloatInfinity).store(scratch_.diffuse_error + first);
         if ((tables_.any_flags & kSpecularFlag) == 0) return;
         for (int c = 0; c < tables_.channels; ++c) zero.store(scratch_.specular[c] + first);
         zero.store(scratch_.specular_error + first);
@@ -100,7 +96,7 @@ class SurfaceFiller {
         const Floats error =
             mul_add(t, half + Floats(bounds.point_by_t),
                     mul_add(largest, Floats(roundings(2)), Floats(bounds.point_constant)));
-        select(w < Floats(1.0F), error, Floats(kInfinity)).store(tile_.point_error + first);
+        select(w < Floats(1.0F), error, Floats(kFloatInfinity)).store(tile_.point_error + first);
     }
 
     // q is off by half of what its bounds are apart.
@@ -149,6 +145,7 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 #include "fast/simd/dispatch.h"
+#include "nuvo/math/error_bounds.h"
 
 namespace nuvo {
 

@@ -9,13 +9,13 @@
 
 #include "fast/simd/estimate_error.h"
 #include "nuvo/geometry/predicates.h"
+#include "nuvo/math/error_bounds.h"
 #include "nuvo/render/shading.h"
 
 namespace nuvo {
 namespace {
 
 constexpr double kFullByte = 255;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // More lights use normals: their tables would outgrow the caches.
 constexpr std::size_t kLightsWithCosines = 8;
 
@@ -181,7 +181,7 @@ void place_light(const ShadingTables& tables, const Light& exact, ShadingLight& 
     light.location_error = max_norm(location) < kFarthest
                                ? rounded_up(kSlack * (roundings(1) * length(location) +
                                                       world_rounding(scene, exact.location)))
-                               : std::numeric_limits<float>::infinity();
+                               : kFloatInfinity;
     const Vector3& a = exact.attenuation;
     light.attenuated = a.x > 1 || a.y != 0 || a.z != 0;
     const double unit = exact.units_per_world / scale;
@@ -203,7 +203,7 @@ void aim_spot(const Light& exact, ShadingLight& light) {
     light.cut_off = rounded_off_zero(exact.cut_off_angle);  // above 0 there is an inside
     light.inverse_width = exact.beam_width < exact.cut_off_angle
                               ? rounded(1 / (exact.cut_off_angle - exact.beam_width))
-                              : std::numeric_limits<float>::infinity();
+                              : kFloatInfinity;
 }
 
 ShadingLight shading_light(const ShadingTables& tables, const Light& exact) {

@@ -15,6 +15,7 @@
 #include "fast/shading/shading.h"
 #include "fast/simd/lanes.h"
 #include "fast/simd/vector_math.h"
+#include "nuvo/math/error_bounds.h"
 
 // Surfaces whose normal or color varies within the primitive: for each primitive that a block
 // shows, its functions of the pixel are evaluated for all 16 lanes. The vectors f x d (sphere) and
@@ -90,7 +91,6 @@ class SmoothNormalLanes {
 
   private:
     static constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-    static constexpr float kInfinity = std::numeric_limits<float>::infinity();
     static constexpr float kSecondRound = 1 + roundings(8);
 
     // The function of the plane through a point with that normal. [camera_triangle_lanes.h]
@@ -108,7 +108,7 @@ class SmoothNormalLanes {
         scratch_.smooth[block_] = static_cast<std::uint16_t>(scratch_.smooth[block_] | bits_);
     }
     HWY_INLINE void give_up(const RayMask& lanes) {
-        Floats(kInfinity).store(scratch_.diffuse_error + first_, lanes);
+        Floats(kFloatInfinity).store(scratch_.diffuse_error + first_, lanes);
     }
     HWY_INLINE void store_point(const Floats (&p)[3], const RayMask& known, float error) {
         const RayMask stored = lanes_ & known;
@@ -148,12 +148,12 @@ class SmoothNormalLanes {
     };
     // m = f x d with f from the centre of the unit sphere to where the rays come from; the unit
     // normal is (d x m -+ s d) / d.d with s^2 = d.d - m.m. (Haines et al. 2019, "Precision
-    // improvements for ray/sphere intersection".) s^2 is formed in double: below `noise` it is that,
-    // and where it is 2^28 times that its float is good to the last digit. In float |m| <= |d|, so
-    // d x m has the roundings of d and m and 3 more; s has its own, half of its square's and the
-    // root's 3.2, with d and the product 5.2; 1 / d.d, its product and the sum 3: all that is
-    // kSphereNormalError in units.
-    // `scale` times `from` is f, from the anchor in a parallel projection.
+    // improvements for ray/sphere intersection".) s^2 is formed in double: below `noise` it is
+    // that, and where it is 2^28 times that its float is good to the last digit. In float |m| <=
+    // |d|, so d x m has the roundings of d and m and 3 more; s has its own, half of its square's
+    // and the root's 3.2, with d and the product 5.2; 1 / d.d, its product and the sum 3: all that
+    // is kSphereNormalError in units. `scale` times `from` is f, from the anchor in a parallel
+    // projection.
     HWY_INLINE UnitNormals unit_normals(const Vector3& from, double scale, bool inside,
                                         double noise, const Rays& rays) const {
         const bool parallel = tables_.camera.parallel;
@@ -200,8 +200,8 @@ class SmoothNormalLanes {
                 rays_of(first_direction_, first_offset_, tables_.camera.right, tables_.camera.down);
         const auto longest = static_cast<double>(tables_.rays.longest);
         const double noise = kCrossError * (1 + norm1(f) + starts_ * scale) * longest * longest;
-        const UnitNormals unit = unit_normals(
-            from, scale, inside, sure ? noise : std::numeric_limits<double>::infinity(), *rays_);
+        const UnitNormals unit =
+            unit_normals(from, scale, inside, sure ? noise : kInfinity, *rays_);
         const Point3 center = tables_.camera.origin - from;
         const float radius = sphere.radius;
         const float turn = inside && !sphere.solid ? -1 : 1;

@@ -27,7 +27,7 @@ struct WideTriangles {
 /// The coordinate at which the point is seen, an integer; at most the picture's size.
 HWY_INLINE Wide pixel_of(const Wide3& point, const Vector3& axis, const Wide& depth, int size) {
     const Wide limit(size);
-    const Wide seen = dot(point, wide(axis)) / (depth * Wide(nuvo::dot(axis, axis)));
+    const Wide seen = dot(point, Wide3::all(axis)) / (depth * Wide(nuvo::dot(axis, axis)));
     return floor(min(max(seen, -limit), limit));
 }
 
@@ -48,14 +48,14 @@ HWY_INLINE void smooth_functions(const CameraRays& camera, double longest, const
     const auto sum = [&](const Wide& of_s, const Wide& of_v, const Wide& of_w)
                          HWY_ATTR { return n0 * of_s + (n1 - n0) * of_v + (n2 - n0) * of_w; };
     const auto along = [&](const Vector3& axis) HWY_ATTR {
-        const Wide3 d = wide(axis);
+        const Wide3 d = Wide3::all(axis);
         return sum(camera.parallel ? Wide(0.0) : dot(s, d), dot(v, d), dot(w, d));
     };
     const auto size_of = [](const Wide3& u) HWY_ATTR { return sqrt(dot(u, u)); };
     const Wide3 right = along(camera.right);
     const Wide3 down = along(camera.down);
     // Near the centroid: precision is best there.
-    const Wide3 forward = wide(camera.forward);
+    const Wide3 forward = Wide3::all(camera.forward);
     const Wide3 center = t.a + (t.e1 + t.e2) * Wide(1.0 / 3);
     const Wide depth = camera.parallel ? Wide(1.0) : dot(center, forward);
     const Wide x = pixel_of(center, camera.right, depth, camera.resolution.width);

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cmath>
-#include <limits>
 
 #include "fast/scene/fast_scene.h"
 #include "nuvo/geometry/predicates.h"
@@ -87,7 +86,6 @@ class SegmentWalk {
 
     // Where the ray is between the planes x = low and x = high, or a little longer.
     Interval within(int axis, double low, double high) const {
-        constexpr double kInfinity = std::numeric_limits<double>::infinity();
         const double origin = origin_[axis];
         const double slack = kOriginSlack * std::fabs(origin) + error_ + 4 * kUnderflow;
         if (!crosses_[axis])

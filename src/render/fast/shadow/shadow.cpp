@@ -64,12 +64,11 @@ class ShadowTracer {
         ShadowBlock& block = blocks_[b];
         const ShadowTables& tables = context_.job.tables;
         const RayMask there = RayMask::from_bits(lanes);
-        const Floats* const at[3] = {&block.points().x, &block.points().y, &block.points().z};
         float low[3];
         float high[3];
         for (int axis = 0; axis < 3; ++axis) {
-            low[axis] = lowest(select(there, *at[axis], Floats(INFINITY)));
-            high[axis] = highest(select(there, *at[axis], Floats(-INFINITY)));
+            low[axis] = lowest(select(there, block.points()[axis], Floats(kFloatInfinity)));
+            high[axis] = highest(select(there, block.points()[axis], Floats(-kFloatInfinity)));
         }
         const float slack = highest(select(there, block.plane_error(), Floats(0.0F)));
         std::vector<OpenShadow>& open = context_.job.open;
@@ -186,6 +185,7 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 #include "fast/simd/dispatch.h"
+#include "nuvo/math/error_bounds.h"
 
 namespace nuvo {
 

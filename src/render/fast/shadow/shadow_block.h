@@ -39,10 +39,9 @@ class ShadowBlock {
         first_ = static_cast<std::uint32_t>(block * kBlockLanes);
         slots_ = reinterpret_cast<const std::int32_t*>(tile.slot) + first_;
         waiting_ = lanes;
-        points_ = {Floats::load(tile.point[0] + first_), Floats::load(tile.point[1] + first_),
-                   Floats::load(tile.point[2] + first_)};
+        points_ = points_of(tile, block);
         error_ = Floats::load(tile.point_error + first_);
-        const Floats size = max(points_.size(), Floats(tables.dense()));
+        const Floats size = max(max_norm(points_), Floats(tables.dense()));
         plane_error_ = mul_add(size, Floats(kPlaneError), error_ + Floats(tables.plane_error())) *
                        Floats(kRounded);
         if (!tables.has_quadrics()) return;
@@ -132,16 +131,9 @@ class ShadowBlock {
     HWY_NOINLINE void test_ball(const ShadowContext& context, const BallMap& map, LightSide side,
                                 Slot slot, std::uint32_t lanes, const Floats& error) {
         const LightPoint& light = context.table.light;
-        const auto at = [&](int axis)
-                            HWY_ATTR { return Floats(static_cast<float>(map.center[axis])); };
-        const Floats x = points_.x - at(0);
-        const Floats y = points_.y - at(1);
-        const Floats z = points_.z - at(2);
+        const Points from_center = points_ - Points::all(Vec3<float>(map.center));
         const auto row = [&](int i) HWY_ATTR {
-            const Vector3& r = map.to_ball.row[i];
-            return mul_add(
-                x, Floats(static_cast<float>(r.x)),
-                mul_add(y, Floats(static_cast<float>(r.y)), z * Floats(static_cast<float>(r.z))));
+            return fused_dot(from_center, Points::all(Vec3<float>(map.to_ball.row[i])));
         };
         const Points points{row(0), row(1), row(2)};
         const ShadowRays rays(map.to_ball * (light.toward - map.center * light.weight),
@@ -171,11 +163,8 @@ class ShadowBlock {
         std::uint32_t rounded =
             (test.square < Floats(item.shape.radius * item.shape.radius)).bits() & ~of_item;
         if (item.sphere) {
-            const Floats fx = Floats(item.shape.center[0]) - seen.points.x;
-            const Floats fy = Floats(item.shape.center[1]) - seen.points.y;
-            const Floats fz = Floats(item.shape.center[2]) - seen.points.z;
-            const Floats along =
-                mul_add(fx, seen.rays.x, mul_add(fy, seen.rays.y, fz * seen.rays.z));
+            const Points f = Points::all(item.shape.center) - seen.points;
+            const Floats along = fused_dot(f, seen.rays.direction);
             // Off by the ray's own error at one end, at most 1 away or a ball's radius, and by the
             // point's.
             const Floats away(std::fmax(1.0F, item.shape.radius));
@@ -186,7 +175,7 @@ class ShadowBlock {
             lanes &= ~(of_item & outwards);
             if (item.side == LightSide::kInside) {
                 // The ray ends inside: blocked iff it starts outside.
-                const Floats square = mul_add(fx, fx, mul_add(fy, fy, fz * fz));
+                const Floats square = fused_dot(f, f);
                 const Floats less = max(Floats(item.shape.radius) - error, Floats(0.0F));
                 block(lanes & ~of_item & (square > test.outside).bits());
                 lanes &= ~(of_item | (square < less * less).bits());

@@ -32,25 +32,20 @@ HWY_INLINE Floats shadow_depth_past(int edge, const ShadowPlanes& t, const Point
 
 /// Shadow rays from points to a light.
 struct ShadowRays {
-    Floats x, y, z;   ///< unit
-    Floats distance;  ///< infinite for a direction
-    Floats inverse;   ///< of the distance
+    Points direction;  ///< unit
+    Floats distance;   ///< infinite for a direction
+    Floats inverse;    ///< of the distance
 
     HWY_INLINE ShadowRays() = default;
     HWY_INLINE ShadowRays(const LightPoint& light, const Points& p)
         : ShadowRays(light.toward, light.weight, p) {}
     /// To the point toward / weight.
     HWY_INLINE ShadowRays(const Vector3& toward, double light_weight, const Points& p) {
-        const auto weight = static_cast<float>(light_weight);
-        x = neg_mul_add(p.x, Floats(weight), Floats(static_cast<float>(toward.x)));
-        y = neg_mul_add(p.y, Floats(weight), Floats(static_cast<float>(toward.y)));
-        z = neg_mul_add(p.z, Floats(weight), Floats(static_cast<float>(toward.z)));
-        const Floats square = mul_add(x, x, mul_add(y, y, z * z));
-        const Floats inverse_root = Floats(1.0F) / sqrt(square);
-        x = x * inverse_root;
-        y = y * inverse_root;
-        z = z * inverse_root;
-        inverse = inverse_root * Floats(weight);
+        const Floats weight(static_cast<float>(light_weight));
+        const Points way = mul_add(p, -weight, Points::all(Vec3<float>(toward)));
+        const Floats inverse_root = Floats(1.0F) / sqrt(fused_dot(way, way));
+        direction = way * inverse_root;
+        inverse = inverse_root * weight;
         distance = Floats(1.0F) / inverse;
     }
 };
@@ -83,15 +78,11 @@ struct QuadricTest {
     /// `error` bounds how far shadow rays may be off.
     HWY_INLINE QuadricTest(const QuadricItem& item, const Points& p, const ShadowRays& ray,
                            const Floats& error) {
-        const Floats fx = Floats(item.shape.center[0]) - p.x;
-        const Floats fy = Floats(item.shape.center[1]) - p.y;
-        const Floats fz = Floats(item.shape.center[2]) - p.z;
-        const Floats b = mul_add(fx, ray.x, mul_add(fy, ray.y, fz * ray.z));
+        const Points f = Points::all(item.shape.center) - p;
+        const Floats b = fused_dot(f, ray.direction);
         const Floats at = min(max(b, Floats(0.0F)), ray.distance);
-        const Floats lx = neg_mul_add(at, ray.x, fx);
-        const Floats ly = neg_mul_add(at, ray.y, fy);
-        const Floats lz = neg_mul_add(at, ray.z, fz);
-        square = mul_add(lx, lx, mul_add(ly, ly, lz * lz));
+        const Points l = mul_add(ray.direction, -at, f);
+        square = fused_dot(l, l);
         const Floats more = Floats(item.shape.radius) + error;
         outside = more * more;
         // Nothing is surely inside of an ellipsoid's sphere.

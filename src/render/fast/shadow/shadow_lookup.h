@@ -13,6 +13,7 @@
 #include "fast/light/light_cells.h"
 #include "fast/shadow/shadow_block.h"
 #include "fast/simd/lanes.h"
+#include "nuvo/math/error_bounds.h"
 
 // A tile's points are looked up in a light's buffer step by step, each step for all of them: cells,
 // lists, entries, items. So what a step reads is on its way from memory during the one before, and
@@ -57,8 +58,7 @@ class ShadowLookup {
                 const RayMask there = RayMask::from_bits(lanes);
                 visit.window =
                     highest_bytes(select(mask_for<std::int32_t>(there), windows, Ints(0)));
-                visit.depth = highest(
-                    select(there, places.depth, Floats(-std::numeric_limits<float>::infinity())));
+                visit.depth = highest(select(there, places.depth, Floats(-kFloatInfinity)));
             }
         }
         const std::uint32_t rough = asked & places.known & ~places.good;

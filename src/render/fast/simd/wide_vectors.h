@@ -9,8 +9,7 @@
 #include <cstddef>
 #include <cstring>
 
-#include "fast/simd/lanes.h"
-#include "nuvo/math/vec.h"
+#include "fast/simd/vector_lanes.h"
 
 // Vectors of 8 doubles, one for each triangle of a TriangleBatch, and the way from such columns to
 // records of 16 floats side by side.
@@ -24,39 +23,13 @@ using Wide = Lanes<double, kBatch>;
 /// Each number rounded to the nearest float.
 HWY_INLINE void store_rounded(const Wide& v, float* to) { floats_from(v).store(to); }
 
-struct Wide3 {
-    Wide x, y, z;
-};
-HWY_INLINE Wide3 wide(const Vector3& v) { return {Wide(v.x), Wide(v.y), Wide(v.z)}; }
-/// From three columns.
-template <std::size_t kColumn>
-HWY_INLINE Wide3 load_wide(const double (*columns)[kColumn], std::size_t first = 0) {
-    return {Wide::load(columns[0] + first), Wide::load(columns[1] + first),
-            Wide::load(columns[2] + first)};
-}
+using Wide3 = VectorLanes<double, kBatch>;
 template <std::size_t kColumn>
 HWY_INLINE void store_rounded(const Wide3& v, float (*columns)[kColumn]) {
     store_rounded(v.x, columns[0]);
     store_rounded(v.y, columns[1]);
     store_rounded(v.z, columns[2]);
 }
-HWY_INLINE Wide3 operator+(const Wide3& a, const Wide3& b) {
-    return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-HWY_INLINE Wide3 operator-(const Wide3& a, const Wide3& b) {
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-HWY_INLINE Wide3 operator*(const Wide3& a, const Wide& s) { return {a.x * s, a.y * s, a.z * s}; }
-HWY_INLINE Wide3 cross(const Wide3& a, const Wide3& b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-HWY_INLINE Wide dot(const Wide3& a, const Wide3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-HWY_INLINE Wide norm1(const Wide3& a) { return abs(a.x) + abs(a.y) + abs(a.z); }
-HWY_INLINE Wide max_norm(const Wide3& a) { return max(abs(a.x), max(abs(a.y), abs(a.z))); }
-HWY_INLINE Wide3 select(const Wide::Mask& mask, const Wide3& a, const Wide3& b) {
-    return {select(mask, a.x, b.x), select(mask, a.y, b.y), select(mask, a.z, b.z)};
-}
-
 /// The numbers of a batch's records, [place / 4][place % 4][triangle].
 struct alignas(64) RecordColumns {
     float at[4][4][kBatch];
