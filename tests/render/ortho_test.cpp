@@ -10,7 +10,8 @@ namespace {
 
 constexpr Resolution kSize{80, 40};
 
-Image picture(const std::string& nodes) {
+enum class Thesis { kToo, kNot };
+Image picture(const std::string& nodes, Thesis by_thesis = Thesis::kToo) {
     const Scene scene =
         x3d::read_text("<X3D version='3.2'><Scene>" + nodes + "</Scene></X3D>", "scene");
     EXPECT_TRUE(scene.camera_given);
@@ -20,6 +21,7 @@ Image picture(const std::string& nodes) {
         render(scene, primitives, build_tree(scene, primitives, profile), profile, kSize);
     EXPECT_EQ(render_brute_force(scene, primitives, profile, kSize), exact);
     EXPECT_EQ(FastTracer(scene, primitives, {}).render(kSize), exact);
+    if (by_thesis == Thesis::kNot) return exact;
     const Profile thesis = thesis_profile();
     const Primitives shapes = flatten(scene, thesis.leaves);
     EXPECT_EQ(render(scene, shapes, build_tree(scene, shapes, thesis), thesis, kSize), exact);
@@ -76,6 +78,19 @@ TEST(OrthoViewpoint, ShowsWhatLiesBeforeItsRaysStart) {
             ASSERT_EQ(box.at(x, y).r, std::abs(wide) < 3 && std::abs(high) < 3 ? 255 : 0)
                 << x << " " << y;
         }
+}
+
+// From where double arithmetic tells the pixels apart, and where it no longer does.
+TEST(OrthoViewpoint, ShowsTheSameFromAnyDistance) {
+    const auto from = [](const char* place) {
+        return picture(
+            std::string("<OrthoViewpoint fieldOfView='-5 -5 5 5' position='0 0 ") + place +
+                "'/><DirectionalLight direction='-1 -1 -2'/><Shape><Appearance><Material/>"
+                "</Appearance><Sphere radius='3'/></Shape><Shape><Box size='9 1 1'/></Shape>",
+            Thesis::kNot);
+    };
+    const Image near = from("10");
+    for (const char* place : {"1e3", "1e8", "1e13", "1e18"}) EXPECT_EQ(from(place), near) << place;
 }
 
 TEST(OrthoViewpoint, OfNoExtentIsTheStandards) {

@@ -76,44 +76,36 @@ class SurfaceFiller {
         zero.store(scratch_.specular_error + first);
     }
 
-    // With w the relative width of the bounds on 1 / t, t is off by w / 2 + w^2 / 2 at most: 1 / (1
-    // - w / 2) <= 1 + w / 2 + w^2 / 2 for w <= 1.
+    // A point is at t directions from where its ray starts. In perspective t is 1 / q: with w the
+    // relative width of the bounds on q it is off by a relative w / 2 + w^2 / 2 at most, for 1 / (1
+    // - w / 2) <= 1 + w / 2 + w^2 / 2 where w <= 1. In a parallel projection it is -q.
     HWY_INLINE void fill_points(int first, const BlockDirections& directions) {
-        if (tables_.camera.parallel) return fill_parallel_points(first, directions);
         const ShadingBounds& bounds = tables_.bounds;
-        const Floats low = Floats::load(tile_.near_low + first);
-        const Floats high = Floats::load(tile_.near_high + first);
-        const Floats t = reciprocal((low + high) * Floats(0.5F));
-        Floats largest(0.0F);
-        for (int axis = 0; axis < 3; ++axis) {
-            const Floats x = mul_add(t, directions.at(axis),
-                                     Floats(static_cast<float>(tables_.camera.origin[axis])));
-            x.store(tile_.point[axis] + first);
-            largest = max(largest, abs(x));
-        }
-        const Floats w = (high - low) * t;
-        const Floats half = mul_add(w, w, w) * Floats(kSlack / 2 * tables_.rays.longest);
-        const Floats error =
-            mul_add(t, half + Floats(bounds.point_by_t),
-                    mul_add(largest, Floats(roundings(2)), Floats(bounds.point_constant)));
-        select(w < Floats(1.0F), error, Floats(kFloatInfinity)).store(tile_.point_error + first);
-    }
-
-    // q is off by half of what its bounds are apart.
-    HWY_NOINLINE void fill_parallel_points(int first, const BlockDirections& directions) {
-        const ShadingBounds& bounds = tables_.bounds;
+        const CameraRays& camera = tables_.camera;
         const Floats low = Floats::load(tile_.near_low + first);
         const Floats high = Floats::load(tile_.near_high + first);
         const Floats q = (low + high) * Floats(0.5F);
+        Floats t = -q;
+        Floats width = high - low;
+        Floats relative = width;
+        if (!camera.parallel) {
+            t = reciprocal(q);
+            relative = width * t;
+            width = t * mul_add(relative, relative, relative);
+        }
         Floats largest(0.0F);
         for (int axis = 0; axis < 3; ++axis) {
-            const Floats x = neg_mul_add(q, directions.at(axis), directions.start(axis));
+            const Floats start = camera.parallel ? directions.start(axis)
+                                                 : Floats(static_cast<float>(camera.origin[axis]));
+            const Floats x = mul_add(t, directions.at(axis), start);
             x.store(tile_.point[axis] + first);
             largest = max(largest, abs(x));
         }
-        const Floats half = (high - low) * Floats(kSlack / 2 * tables_.rays.longest);
-        mul_add(abs(q), Floats(bounds.point_by_t),
-                mul_add(largest, Floats(roundings(2)), half + Floats(bounds.point_constant)))
+        const Floats error =
+            mul_add(abs(t), Floats(bounds.point_by_t),
+                    mul_add(width, Floats(kSlack / 2 * tables_.rays.longest),
+                            mul_add(largest, Floats(roundings(2)), Floats(bounds.point_constant))));
+        select(relative < Floats(1.0F), error, Floats(kFloatInfinity))
             .store(tile_.point_error + first);
     }
 
