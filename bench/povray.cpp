@@ -17,10 +17,13 @@ std::string vec(const Vec3<T>& v) {
 
 void write_camera(std::ostream& out, const Camera& camera) {
     if (camera.window) {
-        const RayGenerator rays(camera, {1920, 1080});
-        out << "camera { orthographic location " << vec(rays.middle()) << " direction "
-            << vec(camera.forward) << " up " << vec(rays.step_down() * -1080) << " right "
-            << vec(rays.step_right() * 1920) << " }\n";
+        const OrthoWindow& window = *camera.window;
+        // It shows the window, and more on one axis.
+        out << "#declare Pixel = max(" << window.high.x - window.low.x << "/image_width, "
+            << window.high.y - window.low.y << "/image_height);\n"
+            << "camera { orthographic location " << vec(RayGenerator(camera, {1, 1}).middle())
+            << " direction " << vec(camera.forward) << " up " << vec(camera.up)
+            << "*Pixel*image_height right " << vec(camera.right) << "*Pixel*image_width }\n";
         return;
     }
     // The picture is wide: the field of view is the vertical one.

@@ -138,7 +138,7 @@ bool sees_back(const TriangleMesh& mesh, const Ray& ray) {
 /// round shapes are seen from within alone.)
 bool meets_backs(const Scene& scene, const Image& picture) {
     constexpr std::uint64_t kMostRays = 1 << 10;
-    constexpr std::uint64_t kMostTests = 1 << 20;
+    constexpr std::uint64_t kMostTests = 1 << 22;
     std::uint64_t items = scene.objects.size() + 1;
     for (const Object& object : scene.objects)
         if (const auto* mesh = std::get_if<TriangleMesh>(&object.shape))

@@ -66,9 +66,7 @@ Triangle triangle_before(std::mt19937_64& random, const View& view, int kind) {
     const double y = uniform(random, -500, 500);
     const CameraRays& camera = view.camera;
     const Vector3 way = normalized(camera.direction(x, y));
-    const Point3 eye = camera.parallel
-                           ? camera.rays.middle() + camera.offset(x, y) * (1 / camera.scale)
-                           : camera.anchor;
+    const Point3 eye = start_of(camera, x, y);
     const Point3 middle = eye + way * std::exp2(uniform(random, -3, 6));
     const double size = std::exp2(uniform(random, -12, 2));
     Triangle t{middle + uniform_point(random, size), middle + uniform_point(random, size),

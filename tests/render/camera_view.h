@@ -38,6 +38,11 @@ struct View {
     }
 };
 
+/// Where the ray of pixel coordinates X, Y starts, in world space, but for roundings.
+inline Point3 start_of(const CameraRays& rays, double x, double y) {
+    return rays.parallel ? rays.rays.middle() + rays.offset(x, y) * (1 / rays.scale) : rays.anchor;
+}
+
 inline Camera random_camera(std::mt19937_64& random, bool telescope = false) {
     const Point3 eye = uniform_point(random, 1);
     Camera camera = camera_along(eye, uniform_point(random, 1));

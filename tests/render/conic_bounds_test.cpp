@@ -170,9 +170,7 @@ TEST(ConicBounds, HoldForSpheres) {
             const double x = view.camera.center_x(tile_x) + uniform(random, 0, 4);
             const double y = view.camera.center_y(tile_y) + uniform(random, 0, 4);
             const Vector3 way = normalized(view.camera.direction(x, y));
-            const Point3 eye = view.camera.parallel
-                                   ? view.camera.rays.middle() + view.camera.offset(x, y)
-                                   : view.camera.anchor;
+            const Point3 eye = start_of(view.camera, x, y);
             const double far = std::exp2(uniform(random, -2, 6));
             double radius = std::exp2(uniform(random, -14, 1)) * far;
             Point3 center = eye + way * far;
@@ -221,9 +219,7 @@ TEST(ConicBounds, HoldForEllipsoids) {
             const double x = view.camera.center_x(tile_x) + uniform(random, 0, 4);
             const double y = view.camera.center_y(tile_y) + uniform(random, 0, 4);
             const Vector3 way = normalized(view.camera.direction(x, y));
-            const Point3 eye = view.camera.parallel
-                                   ? view.camera.rays.middle() + view.camera.offset(x, y)
-                                   : view.camera.anchor;
+            const Point3 eye = start_of(view.camera, x, y);
             const double far = std::exp2(uniform(random, -2, 6));
             const double size = std::exp2(uniform(random, around ? 0 : -10, 1)) * far;
             const Point3 center =

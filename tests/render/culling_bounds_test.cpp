@@ -141,12 +141,9 @@ struct CulledScene {
     static double middle(int first, int size) { return first + 0.5 * kMacroSide - 0.5 * size; }
 
     Triangle triangle(std::mt19937_64& random, Kind kind, const CameraRays& rays) const {
-        const auto start = [&](double x, double y) {
-            return rays.parallel ? rays.rays.middle() + rays.offset(x, y) : rays.anchor;
-        };
         const auto toward = [&](double x, double y) {
             const double nearest = kind == kBetweenPixels ? -14 : -6;
-            return start(x, y) +
+            return start_of(rays, x, y) +
                    normalized(rays.direction(x, y)) * std::exp2(uniform(random, nearest, 3));
         };
         const double width = kind == kAnywhere ? 300 : 40;

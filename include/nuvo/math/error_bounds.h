@@ -5,6 +5,10 @@
 
 namespace nuvo {
 
+/// Bounds where nothing is known; ends of rays.
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+inline constexpr float kFloatInfinity = std::numeric_limits<float>::infinity();
+
 /// u: a correctly rounded double operation has a relative error of at most u, except where its
 /// result is subnormal.
 inline constexpr double kUnitRoundoff = 0x1p-53;
@@ -13,9 +17,6 @@ inline constexpr double kUnderflow = 0x1p-1074;
 
 /// The same of a float operation: half the distance from 1 to the next float.
 inline constexpr float kFloatRoundoff = 0x1p-24F;
-
-inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
-inline constexpr float kFloatInfinity = std::numeric_limits<float>::infinity();
 /// More than what the products of a float stage lose below the normal range, where a few of them
 /// are multiplied with numbers up to the size of a picture; added to a stage's bound.
 inline constexpr double kFloatUnderflow = 0x1p-120;

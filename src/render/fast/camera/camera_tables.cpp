@@ -65,14 +65,12 @@ CameraSphere make_parallel_sphere(const Vector3& from, double r, const Vector3& 
 // Makes spheres as one camera sees them.
 class SphereMaker {
   public:
-    explicit SphereMaker(const CameraRays& camera)
-        : camera_(camera),
-          direction_(CameraExtent(camera).direction),
-          starts_(CameraExtent(camera).starts) {}
+    explicit SphereMaker(const CameraRays& camera) : camera_(camera), extent_(camera) {}
 
     // `r` in the local frame.
     CameraSphere local(const Vector3& from, double r) const {
-        const double cross_error = gamma(32) * (max_norm(from) + starts_) * direction_;
+        const double cross_error =
+            gamma(32) * (max_norm(from) + extent_.starts) * extent_.direction;
         // Of a square, three roundings; f carries one, and r's three more.
         if (camera_.parallel)
             return make_parallel_sphere(from, r, camera_.forward, gamma(4), cross_error);
@@ -83,10 +81,10 @@ class SphereMaker {
     CameraSphere ball(const BallMap& map, const Vector3& from) const {
         const Vector3 f = map.to_ball * from;
         const double map_error = map.error + gamma(8) * map.stretch;
-        const double f_size = max_norm(f) + map.stretch * starts_;
-        const double f_error = (max_norm(from) + starts_) * map_error;
-        const double d_size = map.stretch * direction_;
-        const double d_error = direction_ * map_error;
+        const double f_size = max_norm(f) + map.stretch * extent_.starts;
+        const double f_error = (max_norm(from) + extent_.starts) * map_error;
+        const double d_size = map.stretch * extent_.direction;
+        const double d_error = extent_.direction * map_error;
         const double cross_error =
             gamma(32) * f_size * d_size + 4 * (f_size * d_error + f_error * (d_size + d_error));
         CameraSphere out = camera_.parallel
@@ -106,13 +104,12 @@ class SphereMaker {
     bool may_hold_starts(const Vector3& from, double r) const {
         if (!camera_.parallel) return false;
         const double q = dot(from, camera_.forward);
-        return q + r + gamma(8) * (3 * max_norm(from) + r + starts_) >= camera_.starts_at;
+        return q + r + gamma(8) * (3 * max_norm(from) + r + extent_.starts) >= camera_.starts_at;
     }
 
   private:
     const CameraRays& camera_;
-    double direction_;
-    double starts_;
+    CameraExtent extent_;
 };
 
 }  // namespace

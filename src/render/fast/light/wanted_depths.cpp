@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <atomic>
 
+#include "nuvo/math/error_bounds.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "fast/light/wanted_depths.cpp"
 #include <hwy/foreach_target.h>
@@ -69,7 +71,6 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 #include "fast/simd/dispatch.h"
-#include "nuvo/math/error_bounds.h"
 
 namespace nuvo {
 namespace {

@@ -136,16 +136,10 @@ bool SingleRays::coplanar(Slot first, Slot second) {
 
 std::optional<SingleRays::Nearest> SingleRays::exactly_nearest_of(
     const Ray& ray, std::span<const Slot> slots) const {
-    const ExactRay prepared = kernel_.prepare(ray);
-    std::optional<Kernel::Hit> best;
-    Slot nearest = kNoSlot;
-    for (const Slot slot : slots) {
-        const PrimitiveId id = scene_.id(slot);
-        kernel_.closest(prepared, {id, id + 1}, best);
-        if (best && best->primitive == id) nearest = slot;
-    }
-    if (!best) return std::nullopt;
-    return Nearest{nearest, best->root.t};
+    NearestHit nearest(scene_, kernel_, ray);
+    for (const Slot slot : slots) nearest.test(slot);
+    if (!nearest.best()) return std::nullopt;
+    return Nearest{nearest.slot(), nearest.best()->root.t};
 }
 
 double SingleRays::root_of(const Ray& ray, Slot slot) const {

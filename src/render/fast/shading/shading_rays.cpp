@@ -13,6 +13,10 @@ std::size_t whole_tiles(int pixels) {
     return static_cast<std::size_t>((pixels + kTileSide - 1) / kTileSide * kTileSide);
 }
 
+void add(const Vector3& v, std::vector<float> (&out)[3]) {
+    for (int axis = 0; axis < 3; ++axis) out[axis].push_back(static_cast<float>(v[axis]));
+}
+
 double largest_step(const std::vector<float>& parts) {
     double most = 0;
     for (const float part : parts) most = std::max(most, std::fabs(static_cast<double>(part)));
@@ -34,36 +38,24 @@ ShadingRays::ShadingRays(const CameraRays& camera, const Vector3& zenith) {
     // Of directions.
     const Vector3 right = camera.parallel ? Vector3{} : camera.right;
     const Vector3 down = camera.parallel ? Vector3{} : camera.down;
-    for (int axis = 0; axis < 3; ++axis) {
-        column[axis].resize(width);
-        row[axis].resize(height);
-    }
-    column_height.resize(width);
-    row_height.resize(height);
-    column_square.resize(width);
-    row_square.resize(height);
     for (std::size_t x = 0; x < width; ++x) {
         const Vector3 part = of_column(right, x);
-        for (int axis = 0; axis < 3; ++axis) column[axis][x] = static_cast<float>(part[axis]);
-        column_height[x] = static_cast<float>(dot(part, zenith));
-        column_square[x] = static_cast<float>(dot(part, part));
+        add(part, column);
+        column_height.push_back(static_cast<float>(dot(part, zenith)));
+        column_square.push_back(static_cast<float>(dot(part, part)));
+        if (camera.parallel) add(of_column(camera.right, x), start_column);
     }
     for (std::size_t i = 0; i < height; ++i) {
         const Vector3 part = of_row(camera.forward, down, i);
-        for (int axis = 0; axis < 3; ++axis) row[axis][i] = static_cast<float>(part[axis]);
-        row_height[i] = static_cast<float>(dot(part, zenith));
-        row_square[i] = static_cast<float>(dot(part, part));
+        add(part, row);
+        row_height.push_back(static_cast<float>(dot(part, zenith)));
+        row_square.push_back(static_cast<float>(dot(part, part)));
+        if (camera.parallel) add(of_row(camera.origin, camera.down, i), start_row);
     }
     if (camera.parallel) {
         double farthest = 0;
-        for (int axis = 0; axis < 3; ++axis) {
-            for (std::size_t x = 0; x < width; ++x)
-                start_column[axis].push_back(static_cast<float>(of_column(camera.right, x)[axis]));
-            for (std::size_t i = 0; i < height; ++i)
-                start_row[axis].push_back(
-                    static_cast<float>(of_row(camera.origin, camera.down, i)[axis]));
+        for (int axis = 0; axis < 3; ++axis)
             farthest += largest_step(start_column[axis]) + largest_step(start_row[axis]);
-        }
         // Both parts' and their sum's.
         start_error = rounded_up(roundings(2) * farthest + 3 * camera.start_error);
     }

@@ -1,5 +1,7 @@
 #include "fast/shading/shading.h"
 
+#include "nuvo/math/error_bounds.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "fast/shading/shading_surface.cpp"
 #include <hwy/foreach_target.h>
@@ -137,7 +139,6 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 #include "fast/simd/dispatch.h"
-#include "nuvo/math/error_bounds.h"
 
 namespace nuvo {
 

@@ -4,6 +4,8 @@
 #include <bit>
 #include <cmath>
 
+#include "nuvo/math/error_bounds.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "fast/shadow/shadow.cpp"
 #include <hwy/foreach_target.h>
@@ -185,7 +187,6 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 #include "fast/simd/dispatch.h"
-#include "nuvo/math/error_bounds.h"
 
 namespace nuvo {
 
