@@ -4,18 +4,11 @@
 #include <cstring>
 
 #include "nuvo/math/bounds.h"
-
-// The three axes at once, in vectors of four floats, which every target has.
+#include "nuvo/math/four.h"
 
 namespace nuvo {
 
-using Four = float __attribute__((vector_size(16)));
-using FourInts = std::int32_t __attribute__((vector_size(16)));
-
-inline Four splat(float value) { return Four{value, value, value, value}; }
 inline Four four(const Vec3<float>& v) { return Four{v.x, v.y, v.z, 0}; }
-inline Four least(Four a, Four b) { return a < b ? a : b; }
-inline Four most(Four a, Four b) { return a > b ? a : b; }
 
 /// A box: the last lanes hold anything.
 struct BoxInFours {

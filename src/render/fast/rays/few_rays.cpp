@@ -1,15 +1,15 @@
 #include "fast/rays/few_rays.h"
 
-#include "fast/rays/nearest_hit.h"
 #include "fast/shadow/segment_walk.h"
 #include "fast/tile/local_ray.h"
+#include "fast/tile/nearest_hit.h"
 #include "nuvo/math/error_bounds.h"
 
 namespace nuvo {
 namespace {
 
 // Measured on meshes of 10^3 to 10^6 triangles.
-constexpr std::uint64_t kBoxesOfItem = 16;  // of the structure
+constexpr std::uint64_t kBoxesOfItem = 6;  // of the structure
 constexpr std::uint64_t kBoxesOfRay = 64;
 constexpr std::uint64_t kBoxesOfTest = 8;
 

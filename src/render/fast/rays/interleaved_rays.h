@@ -96,7 +96,7 @@ class InterleavedRays {
 
     // By arithmetic: branches here would be coin tosses.
     HWY_INLINE void queue(RayState& state) {
-        static_assert(WideOctree::kLeaf == 1U << 31 && RayState::kFinished == 1U << 30);
+        static_assert(WideBvh::kLeaf == 1U << 31 && RayState::kFinished == 1U << 30);
         const std::size_t next = state.next;
         const std::size_t leaf = next >> 31;
         const std::size_t finished = (next >> 30 & 1) & ~leaf;
@@ -105,7 +105,7 @@ class InterleavedRays {
         at_nodes_.add(state, 1 - leaf - finished);
         if (!prefetches_) return;
         const auto at_leaf = reinterpret_cast<std::uintptr_t>(tree_.leaves.data()) +
-                             (next & ~std::size_t{WideOctree::kLeaf}) * sizeof(std::uint32_t);
+                             (next & ~std::size_t{WideBvh::kLeaf}) * sizeof(std::uint32_t);
         const auto at_node = reinterpret_cast<std::uintptr_t>(tree_.nodes.data()) +
                              (next & ~std::size_t{RayState::kFinished}) * sizeof(WideNode);
         const std::uintptr_t place = ((at_leaf ^ at_node) & (0 - leaf)) ^ at_node;
@@ -160,29 +160,20 @@ class InterleavedRays {
     }
 
     HWY_INLINE void test_leaf(RayState& state) const {
-        const std::uint32_t* words = tree_.leaves.data() + (state.next & ~WideOctree::kLeaf);
-        while (words != nullptr) words = test_part(state, words);
-    }
-
-    // What one head of a leaf lists; returns the next head, if there is one.
-    HWY_INLINE const std::uint32_t* test_part(RayState& state, const std::uint32_t* words) const {
+        const std::uint32_t* const words = tree_.leaves.data() + (state.next & ~WideBvh::kLeaf);
         WideLeafHead head;
         std::memcpy(&head, words, sizeof head);
-        const Slot* slots = words + kLeafHeadWords;
+        const Slot* const slots = words + kLeafHeadWords;
         const std::uint32_t triangles = head.triangles;
         const std::uint32_t spheres = head.spheres;
-        std::uint32_t others = head.others;
-        if (others == WideLeafHead::kMany) others = *slots++;
+        const std::uint32_t others = head.others;
         const Slot* const other_slots = slots + triangles + spheres;
         const auto* const centers = reinterpret_cast<const float*>(other_slots + others);
         const auto* const corners =
             reinterpret_cast<const std::uint16_t*>(centers + std::size_t{4} * spheres);
-        const std::uint32_t* const behind =
-            head.more ? other_slots + others + std::size_t{4} * spheres + (9 * triangles + 1) / 2
-                      : nullptr;
         if (head.finest_unit() < state.rays->least_unit(state.lane)) {
             add_open(state, slots, triangles + spheres + others);
-            return behind;
+            return;
         }
         const RayAtLeaf at(*state.rays, state.lane, head, state.next_entry);
         in_blocks(triangles, [&](auto block, std::uint32_t i) HWY_ATTR {
@@ -200,7 +191,6 @@ class InterleavedRays {
                  sphere_slots + i, spheres - i);
         });
         if (others != 0) add_open(state, other_slots, others);
-        return behind;
     }
 
     // Few fill more than 8 lanes; the rest take 16 at once.
@@ -294,7 +284,7 @@ class InterleavedRays {
     }
 
     SingleRays& rays_;
-    const WideOctree& tree_;
+    const WideBvh& tree_;
     std::span<const Ray> batch_;
     Slot* found_ = nullptr;
     const bool prefetches_ = tree_.memory_bytes() > SingleRays::kCached;

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "fast/rays/wide_octree.h"
+#include "fast/rays/wide_bvh.h"
 #include "fast/scene/fast_scene.h"
 #include "nuvo/math/error_bounds.h"
 
@@ -95,7 +95,7 @@ struct RayState {
     std::size_t lane = 0;  ///< among these
     Block block;
     /// The first one holds only kFinished.
-    Level levels[CompactOctree::kMaxDepth + 2];
+    Level levels[WideBvh::kMostLevels + 2];
     RayCandidate candidates[kMaxCandidates];
 
     /// Sets out for the root.

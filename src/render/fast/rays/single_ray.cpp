@@ -6,7 +6,7 @@
 #include <limits>
 #include <memory>
 
-#include "fast/rays/nearest_hit.h"
+#include "fast/tile/nearest_hit.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "fast/rays/single_ray.cpp"

@@ -9,7 +9,7 @@
 #include "exact_kernel.h"
 #include "fast/rays/pair_roots.h"
 #include "fast/rays/ray_state.h"
-#include "fast/rays/wide_octree.h"
+#include "fast/rays/wide_bvh.h"
 #include "fast/tile/pair_cache.h"
 #include "fast/tile/serial_tree.h"
 #include "nuvo/render/fast.h"
@@ -45,7 +45,7 @@ class SingleRays {
 
     // For the walks.
     const FastScene& scene() const { return scene_; }
-    const WideOctree& tree() const { return tree_; }
+    const WideBvh& tree() const { return tree_; }
     /// After `rays` of this call.
     bool gives_up(std::size_t rays) const { return tests_ > serial_cost(rays_ + rays, scene_); }
     /// The nearest of the candidates by exact arithmetic, if any is met. The ray is the lane-th
@@ -87,7 +87,7 @@ class SingleRays {
 
     const FastScene& scene_;
     Kernel kernel_;
-    WideOctree tree_;
+    WideBvh tree_;
     std::vector<MeshPlace> meshes_;  // by object
     PairRootStage roots_;
     std::size_t (*walk_)(SingleRays&, std::span<const Ray>, bool, RayAnswer*);

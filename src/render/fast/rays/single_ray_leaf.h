@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "fast/rays/ray_state.h"
-#include "fast/rays/wide_octree.h"
+#include "fast/rays/wide_bvh.h"
 #include "fast/simd/vector_lanes.h"
 #include "nuvo/math/error_bounds.h"
 

@@ -178,8 +178,4 @@ void FastScene::map_ellipsoids(int threads) {
     });
 }
 
-CompactOctree FastScene::build_octree(const CompactBuildOptions& options) const {
-    return octree_of(local_items(*this, options.threads), options);
-}
-
 }  // namespace nuvo

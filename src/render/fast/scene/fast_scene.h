@@ -79,8 +79,6 @@ class FastScene {
     const CompactOctree& octree() const { return octree_; }
     /// Bounds |coordinate| in the octree's box, in the local frame; 1 for an empty scene.
     double reach() const { return reach_; }
-    /// Another one; `overlaps` of the options is filled in.
-    CompactOctree build_octree(const CompactBuildOptions& options) const;
 
     Slot triangle_end() const { return triangle_end_; }
     Slot sphere_end() const { return sphere_end_; }

@@ -2,15 +2,15 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "fast/scene/fast_scene.h"
 #include "nuvo/math/big_vector.h"
 
-// The octree as single rays like it. A ray of its own has no neighbours to share a step with, so a
-// step is made to decide more: a node holds up to 16 voxels of one, two or three levels below it
-// (Dammertz, Hanika and Keller 2008, "Shallow bounding volume hierarchies"), each with the tight
-// box of what it holds instead of its planes, and a leaf holds about as many primitives as are
-// tested at once. Subtrees that these boxes and leaves make needless are taken back.
+// The hierarchy of boxes for single rays. A ray of its own has no neighbours to share a step with,
+// so a step is made to decide more: a node has up to 16 children (Dammertz, Hanika and Keller 2008,
+// "Shallow bounding volume hierarchies"), and a leaf holds about as many primitives as are tested
+// at once.
 
 namespace nuvo {
 
@@ -18,15 +18,15 @@ inline constexpr std::size_t kWideLanes = 16;  ///< of a node
 /// A leaf's primitives are tested by so many at once, or twice as many where it holds more.
 inline constexpr std::size_t kLeafLanes = 8;
 inline constexpr std::size_t kMostLeafLanes = 2 * kLeafLanes;
+inline constexpr std::uint32_t kMostOfLeaf = 4 * kLeafLanes;  ///< primitives
 
-/// Voxels side by side; behind the last one boxes that no ray meets (low +inf, high -inf).
+/// Children side by side; behind the last one boxes that no ray meets (low +inf, high -inf).
 struct alignas(64) WideNode {
     float face[6 * kWideLanes];       ///< low x of all, low y, low z, high x, high y, high z
-    std::uint32_t child[kWideLanes];  ///< index of a node; with WideOctree::kLeaf: place of a leaf
+    std::uint32_t child[kWideLanes];  ///< index of a node; with WideBvh::kLeaf: place of a leaf
     /// The lanes from near to far for rays whose direction's sign bits are 1 x + 2 y + 4 z: number
-    /// i stands in bits 4 (i / 2) to 4 (i / 2) + 3 of word i % 2. What separates two voxels is a
-    /// plane of the octree, so that one order serves all rays of the same signs. (A box may reach
-    /// out of its voxel: the order is for speed.)
+    /// i stands in bits 4 (i / 2) to 4 (i / 2) + 3 of word i % 2. Boxes may overlap: the order is
+    /// for speed.
     std::uint32_t order[8][2];
 };
 
@@ -34,18 +34,13 @@ struct alignas(64) WideNode {
 /// the slots of triangles, spheres and others, with kFrontOnly where the back is invisible; center
 /// x, y, z and radius of the spheres in the local frame; corners of the triangles (a.x of all, a.y
 /// of all ... c.z of all) in 16 bits each, local coordinate = base + unit * number on each axis.
-/// `others` are to be tested exactly. Triangles much larger than these follow behind, with a head
-/// and a grid of their own.
+/// The others are to be tested exactly.
 struct WideLeafHead {
     float base[4];            ///< the fourth: finest_unit()
     std::int8_t exponent[4];  ///< unit = 2^exponent; the fourth: 0
     std::uint8_t triangles;
     std::uint8_t spheres;
-    /// kMany: more than fit into a byte, in the word behind the head.
     std::uint8_t others;
-    bool more;  ///< another head follows
-
-    static constexpr std::uint8_t kMany = 255;
 
     float& finest_unit() { return base[3]; }
     float finest_unit() const { return base[3]; }
@@ -65,10 +60,17 @@ inline constexpr int kFlattestExponent = -32;
 /// Largest number of a corner.
 inline constexpr double kLargestCorner = 65535;
 
-struct WideOctree {
-    static constexpr std::uint32_t kLeaf = 1U << 31;
+/// Appends a leaf with these slots, at most kMostOfLeaf, which ascend, and returns its place. The
+/// grid spans the box, too: there the rays come in.
+std::uint32_t append_leaf(const FastScene& scene, std::span<const Slot> slots,
+                          const Bounds3T<float>& box, BigVector<std::uint32_t>& words);
 
-    explicit WideOctree(const FastScene& scene);
+struct WideBvh {
+    static constexpr std::uint32_t kLeaf = 1U << 31;
+    /// Of nodes, on the way from the root to any leaf.
+    static constexpr int kMostLevels = 80;
+
+    explicit WideBvh(const FastScene& scene);
 
     std::size_t memory_bytes() const {
         return nodes.size() * sizeof(WideNode) + leaves.size() * sizeof(std::uint32_t);
