@@ -1,5 +1,6 @@
 #include <atomic>
 #include <bit>
+#include <numeric>
 
 #include "fast/frame/frame.h"
 #include "fast/frame/frame_worker.h"
@@ -41,20 +42,27 @@ void Frame::make_tables_of_hits(StageClock& clock) {
     });
 }
 
-// Parts of all lights, none with larger tables than there is room for, if it has several lights.
+// All lights, if there is room for their tables at once; else parts of them, none with more than
+// kGroupBytes of tables if it has several lights.
 std::vector<LightRange> Frame::groups_of(const std::vector<char>& listed) const {
     const std::vector<Light>& lights = scene_.scene().lights;
-    const std::size_t most = listing_ == ShadowListing::kByLight ? 0 : kMostShadowBytes;
+    std::vector<std::size_t> bytes;
+    for (std::size_t light = 0; light < lights.size(); ++light)
+        bytes.push_back(lights[light].casts_shadow ? shadow_bytes(scene_, listed[light] != 0) : 0);
+    const bool by_light = listing_ == ShadowListing::kByLight;
+    const std::size_t all = std::accumulate(bytes.begin(), bytes.end(), std::size_t{0});
+    if (!by_light && all <= kMostShadowBytes) return {all_lights()};
+    // Such tables are gone after their group, so that memory that they have used serves again.
+    constexpr std::size_t kGroupBytes = kMostShadowBytes / 4;
+    const std::size_t most = by_light ? 0 : kGroupBytes;
     std::vector<LightRange> groups{{0, 0}};
-    std::size_t bytes = 0;
+    std::size_t of_group = 0;
     for (std::size_t light = 0; light < lights.size(); ++light) {
-        const std::size_t more =
-            lights[light].casts_shadow ? shadow_bytes(scene_, listed[light] != 0) : 0;
-        if (bytes > 0 && bytes + more > most) {
+        if (of_group > 0 && of_group + bytes[light] > most) {
             groups.push_back({light, light});
-            bytes = 0;
+            of_group = 0;
         }
-        bytes += more;
+        of_group += bytes[light];
         groups.back().last = light + 1;
     }
     return groups;
