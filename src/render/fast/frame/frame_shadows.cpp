@@ -51,9 +51,9 @@ std::vector<LightRange> Frame::groups_of(const std::vector<char>& listed) const 
         bytes.push_back(lights[light].casts_shadow ? shadow_bytes(scene_, listed[light] != 0) : 0);
     const bool by_light = listing_ == ShadowListing::kByLight;
     const std::size_t all = std::accumulate(bytes.begin(), bytes.end(), std::size_t{0});
-    if (!by_light && all <= kMostShadowBytes) return {all_lights()};
+    if (!by_light && all <= most_shadow_bytes(scene_)) return {all_lights()};
     // Such tables are gone after their group, so that memory that they have used serves again.
-    constexpr std::size_t kGroupBytes = kMostShadowBytes / 4;
+    constexpr std::size_t kGroupBytes = std::size_t{1} << 28;
     const std::size_t most = by_light ? 0 : kGroupBytes;
     std::vector<LightRange> groups{{0, 0}};
     std::size_t of_group = 0;

@@ -18,14 +18,16 @@
 
 namespace nuvo {
 
-/// Where shadow tables of all lights would take more, they are made for some lights at a time.
-inline constexpr std::size_t kMostShadowBytes = std::size_t{1} << 30;
-
 /// About how many bytes a light's shadow tables take: planes and entries of all items, or of those
 /// that stand before what is seen, which are seldom more than a quarter.
 inline std::size_t shadow_bytes(const FastScene& scene, bool listed) {
     constexpr std::size_t kItemBytes = 96;
     return scene.slot_end() * kItemBytes / (listed ? 4 : 1);
+}
+/// Where shadow tables of all lights would take more, they are made for some lights at a time. Two
+/// lights have room however large the scene is: it takes as much itself.
+inline std::size_t most_shadow_bytes(const FastScene& scene) {
+    return std::max(std::size_t{1} << 30, 2 * shadow_bytes(scene, false));
 }
 
 /// What all pixels show.
@@ -110,7 +112,7 @@ struct Frame::Tables {
         const std::vector<Light>& lights = scene.scene().lights;
         const auto shadows = static_cast<std::size_t>(std::count_if(
             lights.begin(), lights.end(), [](const Light& light) { return light.casts_shadow; }));
-        if (shadows * shadow_bytes(scene, false) > kMostShadowBytes) return true;
+        if (shadows * shadow_bytes(scene, false) > most_shadow_bytes(scene)) return true;
         return scene.slot_end() > kMany && scene.slot_end() * kPixels > pixel_count(resolution) &&
                shadows > 0;
     }
