@@ -66,6 +66,12 @@ def ratio(slow, fast):
     return f"**{middle:.2f}** ({low:.2f} .. {high:.2f})"
 
 
+def first_pictures(side):
+    """What the first picture takes after the build, of each round."""
+    build, scratch = side["build"]["samples"], side["scratch"]["samples"]
+    return {"samples": [both - built for both, built in zip(scratch, build)]}
+
+
 def table(head, rows):
     if not rows:
         return "Not measured.\n"
@@ -129,12 +135,14 @@ class Report:
             rows.append([title, f"{primitives:,}", with_interval(theirs["frame"]),
                          with_interval(mine["frame"]), ratio(theirs["frame"], mine["frame"]),
                          ratio(theirs["scratch"], mine["scratch"]),
+                         ratio(first_pictures(theirs), first_pictures(mine)),
                          ratio(rays["embree"], rays["ours_measured"]) if rays else "-",
                          ratio(price["exact"], price["plain"]) if price else "-",
                          f"{mine['table_bytes'] / primitives:.0f}",
                          result.get("pixels_unlike_exact", "-")])
         return table(["scene", "primitives", "Embree, ms", "nuvo, ms", "frame: times as fast",
-                      "with a build from scratch", "single rays", "price of exactness",
+                      "with a build from scratch", "first picture", "single rays",
+                      "price of exactness",
                       "tables of a frame, bytes a primitive", "pixels unlike the exact profile's"],
                      rows)
 

@@ -94,6 +94,19 @@ TEST_F(PeersReport, SaysHowManyTimesAsFastAndPutsItIntoTheDocument) {
     EXPECT_EQ(merged["results"]["frame-trianglemesh-far"], result());
 }
 
+TEST_F(PeersReport, TellsWhatTheFirstPictureTakesAfterTheBuild) {
+    fs::create_directories(folder_ / "results/raw");
+    nlohmann::json people = result();
+    people["ours"][0]["type"] = "measured";
+    put("results/raw/people-terrain.json", people.dump());
+    ASSERT_EQ(report("results"), 0) << said();
+    // Frame 2, with the build 3; first pictures 29 to 33 ms against 10.
+    EXPECT_NE(said().find("| **2.00** (2.00 .. 2.00) | **3.00** (3.00 .. 3.00) | **3.10** (2.90 .. "
+                          "3.30) | - | - | 8 | 0 |"),
+              std::string::npos)
+        << said();
+}
+
 TEST_F(PeersReport, ToleratesWhatWasNotMeasured) {
     fs::create_directories(folder_ / "results/raw");
     nlohmann::json only_survey = result();
