@@ -15,15 +15,18 @@ namespace {
 
 using Box = Bounds3T<float>;
 
-/// Walks all of it; notes in which boxes the leaves lie that list a slot, and how deep nodes lie.
+/// Walks all of it; notes in which boxes the leaves lie that list a slot, the finest units of their
+/// grids, and how deep nodes lie.
 class Reader {
   public:
-    Reader(const FastScene& scene, const WideBvh& tree) : boxes(scene.slot_end()), tree_(tree) {
+    Reader(const FastScene& scene, const WideBvh& tree)
+        : boxes(scene.slot_end()), units(scene.slot_end()), tree_(tree) {
         constexpr float kMost = std::numeric_limits<float>::max();
         read_node(0, {{-kMost, -kMost, -kMost}, {kMost, kMost, kMost}}, 1);
     }
 
-    std::vector<std::vector<Box>> boxes;  ///< by slot
+    std::vector<std::vector<Box>> boxes;     ///< by slot
+    std::vector<std::vector<double>> units;  ///< the same
     int levels = 0;
     std::size_t nodes = 0;
 
@@ -69,6 +72,7 @@ class Reader {
             const Slot slot = tree_.leaves[place + kLeafHeadWords + i] & ~kFrontOnly;
             ASSERT_LT(slot, boxes.size());
             boxes[slot].push_back(around);
+            units[slot].push_back(static_cast<double>(head.finest_unit()));
         }
     }
 
@@ -204,21 +208,13 @@ TEST(WideBvh, PartsSmallTrianglesFromLargeOnes) {
     const Primitives primitives = flatten(scene, LeafContent::kPrimitives);
     const FastScene fast(scene, primitives, OctreeType::kUniform, 1);
     const WideBvh tree(fast);
-    bool found = false;
-    for (std::size_t lane = 0; lane < kWideLanes; ++lane) {
-        if ((tree.nodes[0].child[lane] & WideBvh::kLeaf) == 0) continue;
-        const std::uint32_t place = tree.nodes[0].child[lane] & ~WideBvh::kLeaf;
-        WideLeafHead head;
-        std::memcpy(&head, tree.leaves.data() + place, sizeof head);
-        for (std::size_t i = 0; i < head.triangles; ++i) {
-            const Slot slot = tree.leaves[place + kLeafHeadWords + i] & ~kFrontOnly;
-            if (slot < 4) continue;
-            found = true;
-            const Bounds3 box = local_triangle(fast, slot).bounds();
-            EXPECT_GE(max_norm(box.widths()), 170 * static_cast<double>(head.finest_unit()));
-        }
+    const Reader reader(fast, tree);
+    for (Slot slot = 4; slot < fast.slot_end(); ++slot) {
+        const Bounds3 box = local_triangle(fast, slot).bounds();
+        ASSERT_FALSE(reader.units[slot].empty());
+        for (const double unit : reader.units[slot])
+            EXPECT_GE(max_norm(box.widths()), 170 * unit) << "slot " << slot;
     }
-    EXPECT_TRUE(found);
 }
 
 }  // namespace

@@ -16,12 +16,14 @@
 #include "fast/rays/single_ray.h"
 #include "fast/rays/single_ray_leaf.h"
 #include "fast/simd/lanes.h"
+#include "fast/simd/prefetch.h"
 #include "nuvo/math/error_bounds.h"
 
 // A node's boxes are met from near to far, as in Embree's single-ray kernels (Wald et al. 2014,
-// "Embree: a kernel framework for efficient CPU ray tracing"), but 16 at a step and in the octree's
-// order instead of sorted. What floats leave open is kept as a candidate with an interval, and
-// decided by exact arithmetic at the end, if nothing that is surely nearer has come up.
+// "Embree: a kernel framework for efficient CPU ray tracing"), but 16 at a step and in the order
+// of their node's cuts instead of sorted. What floats leave open is kept as a candidate with an
+// interval, and decided by exact arithmetic at the end, if nothing that is surely nearer has come
+// up.
 
 HWY_BEFORE_NAMESPACE();
 namespace nuvo::HWY_NAMESPACE {
@@ -109,9 +111,7 @@ class InterleavedRays {
         const auto at_node = reinterpret_cast<std::uintptr_t>(tree_.nodes.data()) +
                              (next & ~std::size_t{RayState::kFinished}) * sizeof(WideNode);
         const std::uintptr_t place = ((at_leaf ^ at_node) & (0 - leaf)) ^ at_node;
-        constexpr std::size_t kLine = 64;
-        for (std::size_t at = 0; at < sizeof(WideNode); at += kLine)
-            __builtin_prefetch(reinterpret_cast<const char*>(place + at));
+        prefetch_lines(reinterpret_cast<const void*>(place), sizeof(WideNode));
     }
 
     // Lets the next ray of the batch take the place, if there is one.

@@ -11,6 +11,7 @@
 
 #include "fast/rays/ray_state.h"
 #include "fast/simd/lanes.h"
+#include "fast/simd/prefetch.h"
 #include "fast/tile/local_ray.h"
 #include "nuvo/math/error_bounds.h"
 
@@ -29,7 +30,9 @@ class RayBlock {
   public:
     /// The first 16 of the rays; of fewer the last one again and again.
     HWY_NOINLINE void prepare(std::span<const Ray> rays, const LocalFrame& frame, float reach) {
-        prefetch_next(rays);
+        // The next 16 are prepared when these are under way.
+        if (rays.size() >= 2 * RayLanes::kRays)
+            prefetch_lines(&rays[RayLanes::kRays], RayLanes::kRays * sizeof(Ray));
         if (!prepare_near(rays, frame, reach)) prepare_far(rays, frame, reach);
     }
 
@@ -42,15 +45,6 @@ class RayBlock {
     static constexpr std::int32_t kSignBit = std::numeric_limits<std::int32_t>::min();
     // Components of d are kept off 0 by this; s d stays as near to the ray as slabs are wide.
     static constexpr float kLeastDirection = 0x1p-60F;
-
-    // Asks for the 16 rays after these, which are prepared when these are under way.
-    HWY_INLINE static void prefetch_next(std::span<const Ray> rays) {
-        constexpr std::size_t kLine = 64;
-        if (rays.size() < 2 * RayLanes::kRays) return;
-        const auto* const next = reinterpret_cast<const char*>(&rays[RayLanes::kRays]);
-        for (std::size_t at = 0; at < RayLanes::kRays * sizeof(Ray); at += kLine)
-            __builtin_prefetch(next + at);
-    }
 
     // What LocalRay is, of 16.
     struct Local {

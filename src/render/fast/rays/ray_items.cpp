@@ -110,6 +110,7 @@ std::vector<RayItem> ray_items(const FastScene& scene) {
     for_each_listed(scene, 0, root, [&](Slot slot, const Bounds3T<float>& voxel) {
         if (items[slot].width() > kLarge * max_norm(voxel.widths())) is_cut[slot] = 1;
     });
+    if (std::find(is_cut.begin(), is_cut.end(), 1) == is_cut.end()) return items;
     std::vector<RayItem> parts;
     std::vector<float> volumes(items.size(), 0);
     for_each_listed(scene, 0, root, [&](Slot slot, const Bounds3T<float>& voxel) {

@@ -13,6 +13,7 @@
 #include "fast/light/light_cells.h"
 #include "fast/shadow/shadow_block.h"
 #include "fast/simd/lanes.h"
+#include "fast/simd/prefetch.h"
 #include "nuvo/math/error_bounds.h"
 
 // A tile's points are looked up in a light's buffer step by step, each step for all of them: cells,
@@ -175,10 +176,8 @@ class ShadowLookup {
         prefetch(visit);
     }
     HWY_INLINE void prefetch(const Visit& visit) const {
-        constexpr std::size_t kLine = 64 / sizeof(std::uint32_t);
-        const LightGroup group = buffer_.group(visit.begin, visit.end);
-        for (std::size_t at = 0; at < LightGroup::kWords * LightGroup::kMost; at += kLine)
-            __builtin_prefetch(group.words + at);
+        prefetch_lines(buffer_.group(visit.begin, visit.end).words,
+                       LightGroup::kWords * LightGroup::kMost * sizeof(std::uint32_t));
     }
     // Looks at the next entries, up to `most`; false: nothing is left to be looked at.
     HWY_INLINE bool scan(Visit& visit, std::uint32_t most) {
